@@ -1,0 +1,177 @@
+"""Named budgets: how a task, phase, method and seed become a whole config.
+
+`make_config` is the one place where task, method and preset meet; overrides come last.
+"""
+
+from __future__ import annotations
+
+import copy
+from typing import Any
+
+from pydantic import ConfigDict
+from pydantic.dataclasses import dataclass
+
+from sldr_core.config import (
+    LOCOMOTION_METHOD,
+    Phase,
+    TaskSpec,
+    TrainConfig,
+    config_from_dict,
+    find_method,
+    find_task,
+)
+from sldr_core.errors import InvalidConfig, UnknownName
+
+Settings = dict[str, Any]
+"""Settings of a config as nested plain values; only those that differ from the defaults."""
+
+_FROZEN = ConfigDict(extra="forbid", use_attribute_docstrings=True)
+
+
+@dataclass(frozen=True, config=_FROZEN)
+class Preset:
+    """Name a budget and the settings it stands for."""
+
+    name: str
+    """The preset's name."""
+    summary: str
+    """What it is for, in one sentence for a person."""
+    manipulation: Settings
+    """Settings of manipulation runs."""
+    locomotion: Settings
+    """Settings of locomotion runs."""
+
+
+PRESETS: dict[str, Preset] = {
+    preset.name: preset
+    for preset in (
+        Preset(
+            name="quick",
+            summary="Reach a learnt policy while you watch: fewer, smaller and more frequent updates.",
+            manipulation={
+                "loop": {
+                    "epochs": 30,
+                    "cycles_per_epoch": 10,
+                    "updates_per_cycle": 80,
+                    "updates_per_sync": 4,
+                    "batch_size": 1024,
+                    "test_episodes": 114,
+                    "stop_at_success": 0.95,
+                    "stop_after_tests": 2,
+                }
+            },
+            locomotion={
+                "loop": {
+                    "epochs": 10,
+                    "cycles_per_epoch": 10,
+                    "updates_per_sync": 4,
+                    "batch_size": 1024,
+                    "test_episodes": 114,
+                    "stop_at_success": 0.98,
+                    "stop_after_tests": 2,
+                }
+            },
+        ),
+        Preset(
+            name="paper",
+            summary="The paper's protocol, exactly: hours on a laptop, made for a GPU box or a cluster.",
+            manipulation={},
+            locomotion={},
+        ),
+        Preset(
+            name="smoke",
+            summary="See everything work in seconds; nothing is learnt.",
+            manipulation={
+                "loop": {
+                    "epochs": 2,
+                    "cycles_per_epoch": 2,
+                    "episodes_per_cycle": 4,
+                    "updates_per_cycle": 4,
+                    "updates_per_sync": 4,
+                    "batch_size": 64,
+                    "test_episodes": 4,
+                },
+                "agent": {"hidden_sizes": [32, 32, 32]},
+                "replay": {"capacity": 2000},
+                "sldr": {"gate": 0.0},
+            },
+            locomotion={
+                "loop": {
+                    "epochs": 2,
+                    "cycles_per_epoch": 2,
+                    "episodes_per_cycle": 4,
+                    "updates_per_cycle": 4,
+                    "updates_per_sync": 4,
+                    "batch_size": 64,
+                    "test_episodes": 4,
+                },
+                "agent": {"hidden_sizes": [32, 32, 32]},
+                "replay": {"capacity": 2000},
+            },
+        ),
+    )
+}
+
+
+def find_preset(name: str) -> Preset:
+    """Return a preset.
+
+    Raises:
+        UnknownName: no preset is called `name`.
+    """
+    if name not in PRESETS:
+        raise UnknownName("preset", name, PRESETS)
+    return PRESETS[name]
+
+
+def make_config(
+    task: str,
+    phase: Phase,
+    method: str,
+    seed: int,
+    preset: str,
+    overrides: Settings | None = None,
+) -> TrainConfig:
+    """Return the whole config of one run: task's numbers, then method, then preset, then overrides.
+
+    Raises:
+        UnknownName: task, method or preset does not exist.
+        InvalidConfig: a setting is unknown or cannot work.
+    """
+    settings: Settings = {"task": task, "phase": phase, "method": method, "seed": seed}
+    _merge(settings, _task_settings(find_task(task), phase))
+    _merge(settings, {"replay": {"relabel_probability": find_method(method).relabel_probability}})
+    _merge(settings, getattr(find_preset(preset), phase))
+    _merge(settings, overrides or {})
+    return config_from_dict(settings)
+
+
+def make_locomotion_config(config: TrainConfig, preset: str) -> TrainConfig:
+    """Return the config of the locomotion run that a manipulation run takes its reward from.
+
+    One object serves every seed, so the locomotion run always has seed 0.
+    """
+    compute = {"device": config.compute.device, "precision": config.compute.precision, "threads": config.compute.threads}
+    overrides = {"compute": compute, "scene": {"locomotion_robot": config.scene.locomotion_robot}}
+    return make_config(config.task, "locomotion", LOCOMOTION_METHOD, 0, preset, overrides)
+
+
+def _task_settings(task: TaskSpec, phase: Phase) -> Settings:
+    if phase == "locomotion":
+        return {
+            "loop": {"epochs": task.paper_locomotion_epochs},
+            "agent": {"gamma": task.locomotion_gamma},
+            "exploration": {"random_action_probability": 0.2, "noise_std": 0.05},
+        }
+    return {"loop": {"epochs": task.paper_epochs}, "agent": {"gamma": task.gamma}}
+
+
+def _merge(settings: Settings, changes: Settings, path: str = "") -> None:
+    """Lay nested `changes` over `settings`, in place."""
+    for key, value in changes.items():
+        if isinstance(settings.get(key), dict):
+            if not isinstance(value, dict):
+                raise InvalidConfig({f"{path}{key}": f"expected a group of settings, got {value!r}"})
+            _merge(settings[key], value, f"{path}{key}.")
+        else:
+            settings[key] = copy.deepcopy(value)
