@@ -1,0 +1,253 @@
+"""The API's records: what a request may say and what an answer holds. The TypeScript client is generated from them."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from typing import Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from backend.store.states import RunState
+from sldr_core.config import Phase
+
+
+class Strict(BaseModel):
+    """Refuse unknown fields and silent conversions."""
+
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
+
+
+class Problem(Strict):
+    """One thing wrong with a request."""
+
+    field: str | None = Field(description="Dotted name of the field or setting at fault, if there is one.")
+    message: str = Field(description="What is wrong and what to do, in one sentence.")
+
+
+class Problems(Strict):
+    """Everything wrong with a request; the body of every 4xx and 5xx answer."""
+
+    problems: list[Problem]
+
+
+class Task(Strict):
+    """One task, for the launch form."""
+
+    name: str
+    goal_text: str
+    obs_size: int
+    goal_size: int
+    robot_action_size: int
+    object_action_size: int
+    episode_length: int
+    success_distance: float
+    picture_url: str
+
+
+class Method(Strict):
+    """One method, for the launch form."""
+
+    name: str
+    title: str
+    summary: str
+    needs_locomotion: bool
+
+
+class PresetSummary(Strict):
+    """One preset, for the launch form."""
+
+    name: str
+    summary: str
+
+
+class Choices(Strict):
+    """All that a launch can choose from."""
+
+    tasks: list[Task]
+    phases: list[Phase]
+    methods: list[Method]
+    presets: list[PresetSummary]
+    config_schema: dict[str, Any] = Field(description="JSON schema of a run's config, with defaults.")
+
+
+class Launch(BaseModel):
+    """A request to train: one run per seed, with the locomotion run they need."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    task: str
+    phase: Phase = "manipulation"
+    method: str
+    seeds: list[int] = Field(min_length=1, max_length=100)
+    preset: str
+    overrides: dict[str, Any] = Field(default_factory=dict, description="Settings laid over the preset, nested.")
+
+
+class PlannedRun(Strict):
+    """One run that a launch would queue, or an existing one that it would share."""
+
+    task: str
+    phase: Phase
+    method: str
+    seed: int
+    reused_run_id: str | None = Field(description="The existing run that serves, if one does.")
+    config: dict[str, Any]
+
+
+class LaunchPlan(Strict):
+    """What a launch would do."""
+
+    runs: list[PlannedRun]
+
+
+class Progress(Strict):
+    """How far a run is. Null until its first report."""
+
+    epoch: int
+    epochs: int
+    env_steps: int
+    episodes: int
+    updates: int
+    fraction: float = Field(description="Share of the whole training done, 0 to 1.")
+    success_rate: float | None = Field(description="Success of the newest test.")
+    best_success_rate: float | None
+    env_steps_per_s: float | None
+    updates_per_s: float | None
+    seconds_left: float | None
+
+
+class RunSummary(Strict):
+    """One row of the runs table."""
+
+    id: str
+    task: str
+    phase: Phase
+    method: str
+    seed: int
+    preset: str
+    state: RunState
+    reason: str | None = Field(description="Why it waits or ended so, in one sentence.")
+    needs: list[str] = Field(description="Ids of the runs it waits for.")
+    attempt: int
+    progress: Progress | None
+    created_at: datetime
+    started_at: datetime | None
+    ended_at: datetime | None
+    cancel_requested: bool
+
+
+class RunPage(Strict):
+    """One page of runs, newest first."""
+
+    runs: list[RunSummary]
+    next_cursor: str | None
+    total: int
+
+
+class RunDetail(RunSummary):
+    """Everything about one run but its curves and logs."""
+
+    config: dict[str, Any]
+    config_hash: str
+    locomotion_run_id: str | None
+    has_policy: bool = Field(description="Whether there is a policy that can be watched in 3D.")
+    has_recording: bool = Field(description="Whether there is a Rerun file to download.")
+
+
+class RunEvent(Strict):
+    """One line of a run's history."""
+
+    at: datetime
+    event: str
+    state: RunState
+    attempt: int
+    detail: str | None
+
+
+class RunEvents(Strict):
+    """A run's history, oldest first."""
+
+    events: list[RunEvent]
+
+
+class MetricBatch(Strict):
+    """The points of a run after a cursor, in columns. Value columns are as long as `step`; null where not logged."""
+
+    cursor: int = Field(description="Pass as `after` to get what comes next.")
+    attempt: list[int]
+    step: list[int] = Field(description="Cycles since the start of the training.")
+    epoch: list[int]
+    env_steps: list[int]
+    episodes: list[int]
+    updates: list[int]
+    wall_seconds: list[float]
+    values: dict[str, list[float | None]]
+
+
+class LogTail(Strict):
+    """A piece of a run's log."""
+
+    text: str
+    offset: int = Field(description="Pass as `after` to get what comes next.")
+
+
+class RunFile(Strict):
+    """One stored file of a run."""
+
+    name: str
+    kind: str
+    size: int
+    sha256: str
+    created_at: datetime
+    url: str
+
+
+class RunFiles(Strict):
+    """The stored files of a run."""
+
+    files: list[RunFile]
+
+
+class Worker(Strict):
+    """One worker process and what it does."""
+
+    id: str
+    host: str
+    pid: int
+    slots: int
+    busy: int
+    last_heartbeat_at: datetime
+    alive: bool
+
+
+class Workers(Strict):
+    """The workers known to the store."""
+
+    workers: list[Worker]
+
+
+class ViewerRequest(BaseModel):
+    """A request to watch the newest policy of a run in 3D."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    run_id: str
+
+
+class ViewerSession(Strict):
+    """A 3D session: poll it until it is ready, then open its url."""
+
+    id: str
+    run_id: str
+    state: Literal["starting", "ready", "ended", "failed"]
+    url: str | None = Field(description="Path of the 3D page, below this server, once ready.")
+    message: str | None = Field(description="What it shows, or why it ended or failed.")
+
+
+class Health(Strict):
+    """Whether the service can do its work."""
+
+    status: Literal["ok", "degraded"]
+    version: str
+    workers_alive: int
+    viewer_alive: bool
