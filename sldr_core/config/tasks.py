@@ -45,6 +45,10 @@ class TaskSpec:
     """Control steps of one episode."""
     success_distance: float
     """An episode succeeds if its last achieved goal is nearer to the goal than this [m]."""
+    start_base: tuple[float, float, float]
+    """Where the robot's base stands before the gripper is brought to its start: x, y, z slide [m]."""
+    start_object: tuple[float, float, float]
+    """Where the object lies before each episode draws its own x and y [m]."""
     object_range: float
     """Half side of the square around the gripper in which the object starts [m]."""
     target_range: float
@@ -80,6 +84,8 @@ FETCH_PUSH = TaskSpec(
     object_action_size=7,
     episode_length=50,
     success_distance=0.05,
+    start_base=(0.405, 0.48, 0.0),
+    start_object=(1.25, 0.53, 0.4),
     object_range=0.15,
     target_range=0.15,
     target_offset=(0.0, 0.0, 0.0),

@@ -1,0 +1,147 @@
+"""N simulations of one task and phase behind four verbs: reset, step, reward, success."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from sldr_core.config import Phase, TaskSpec
+from sldr_core.envs.fetch import Actuation, FetchStarts, FingerHold, Observer
+from sldr_core.envs.rewards import is_success, sparse_reward
+from sldr_core.envs.scenes.fetch import SUBSTEPS
+from sldr_core.envs.simulation import Array, Ids, Simulation
+
+OBJECT_STATE_SIZE = 12
+"""Entries of what a Fetch object sees of itself."""
+
+
+@dataclass(frozen=True)
+class Observation:
+    """What is seen after a reset or a step; the arrays are copies."""
+
+    obs: Array
+    """`[N, D]`."""
+    achieved: Array
+    """`[N, G]`."""
+    goal: Array
+    """`[N, G]`."""
+
+
+class Envs:
+    """Hold N simulations. An episode is `episode_length` steps; it never resets by itself.
+
+    Attributes:
+        qpos, qvel, mocap_pos, mocap_quat: live views `[N, ...]` of the simulations.
+    """
+
+    def __init__(
+        self,
+        *,
+        spec: TaskSpec,
+        phase: Phase,
+        simulation: Simulation,
+        actor: Actuation,
+        bystander: Actuation | None,
+        bystander_moves: bool,
+        observer: Observer,
+        starts: FetchStarts,
+        hold: FingerHold | None,
+        seed: int,
+    ) -> None:
+        self.spec = spec
+        self.phase = phase
+        self.simulation = simulation
+        self.num_envs = simulation.num_envs
+        self.obs_size = spec.obs_size if phase == "manipulation" else OBJECT_STATE_SIZE
+        self.goal_size = spec.goal_size
+        self.action_size = spec.robot_action_size if phase == "manipulation" else spec.object_action_size
+        self.episode_length = spec.episode_length
+        self.qpos, self.qvel = simulation.qpos, simulation.qvel
+        self.mocap_pos, self.mocap_quat = simulation.mocap_pos, simulation.mocap_quat
+        self._actor = actor
+        self._bystander = bystander
+        self._bystander_moves = bystander_moves
+        self._observer = observer
+        self._starts = starts
+        self._hold = hold
+        self._rngs = [np.random.default_rng((seed, index)) for index in range(self.num_envs)]
+        self._goal = np.zeros((self.num_envs, spec.goal_size))
+        self.reset()
+
+    @property
+    def model(self) -> mujoco.MjModel:
+        """The scene's MuJoCo model."""
+        return self.simulation.model
+
+    def reset(self, ids: ArrayLike | None = None) -> Observation:
+        """Start new episodes in simulations `ids` (all if None); the others are left as they are."""
+        chosen = self._ids(ids)
+        starts = [self._starts.draw(self._rngs[index]) for index in chosen]
+        self._goal[chosen] = [start.goal for start in starts]
+        self.simulation.reset(
+            chosen, np.stack([start.qpos for start in starts]), np.stack([start.qvel for start in starts])
+        )
+        return self.observe()
+
+    def step(self, action: ArrayLike) -> Observation:
+        """Advance every simulation by one control step of 0.04 s.
+
+        Args:
+            action: `[N, A]`; values beyond [-1, 1] are clipped. Taken as float32, as the reference does.
+        """
+        clipped = np.clip(np.asarray(action, dtype=np.float32), -1.0, 1.0)
+        if clipped.shape != (self.num_envs, self.action_size):
+            raise ValueError(f"expected actions of shape {(self.num_envs, self.action_size)}, got {clipped.shape}")
+        if self._bystander is not None:
+            self._bystander.apply(self._bystander_action())
+        self._actor.apply(clipped)
+        self.simulation.step(SUBSTEPS)
+        if self._hold is not None:
+            self._hold.apply()
+        return self.observe()
+
+    def observe(self) -> Observation:
+        """Return what is seen now."""
+        return Observation(self._observer.observe(), self._observer.achieved(), self._goal.copy())
+
+    def reward(self, achieved: NDArray[np.floating], goal: NDArray[np.floating]) -> NDArray[np.float32]:
+        """Return the sparse reward of achieved and desired goals `[..., G]`, as `[...]`."""
+        return sparse_reward(achieved, goal, self.spec.success_distance)
+
+    def success(self, achieved: NDArray[np.floating], goal: NDArray[np.floating]) -> NDArray[np.bool_]:
+        """Tell which achieved goals `[..., G]` count as success, as `[...]`."""
+        return is_success(achieved, goal, self.spec.success_distance)
+
+    def set_goal(self, goal: ArrayLike, ids: ArrayLike | None = None) -> None:
+        """Replace the goals of simulations `ids` by `[len(ids), G]` or `[G]`."""
+        self._goal[self._ids(ids)] = goal
+
+    def state(self) -> dict[str, Any]:
+        """Return everything that decides what comes next: simulations, goals and generators."""
+        return {
+            "simulation": self.simulation.state.copy(),
+            "goal": self._goal.copy(),
+            "rngs": [rng.bit_generator.state for rng in self._rngs],
+        }
+
+    def restore(self, state: dict[str, Any]) -> None:
+        """Continue from what `state` returned, to the last bit."""
+        self.simulation.state[:] = state["simulation"]
+        self.simulation.forward()
+        self.simulation.state[:] = state["simulation"]
+        self._goal[:] = state["goal"]
+        for rng, rng_state in zip(self._rngs, state["rngs"], strict=True):
+            rng.bit_generator.state = rng_state
+
+    def _ids(self, ids: ArrayLike | None) -> Ids:
+        return np.arange(self.num_envs) if ids is None else np.sort(np.atleast_1d(np.asarray(ids, dtype=np.int64)))
+
+    def _bystander_action(self) -> NDArray[np.float32]:
+        size = self.spec.robot_action_size
+        if not self._bystander_moves:
+            return np.zeros((self.num_envs, size), dtype=np.float32)
+        return np.stack([rng.uniform(-1.0, 1.0, size) for rng in self._rngs]).astype(np.float32)

@@ -1,0 +1,1 @@
+"""Scenes: MuJoCo models built from the ones that gymnasium-robotics ships."""

@@ -1,0 +1,126 @@
+"""N simulations of one scene, stepped together on threads, read and written through live arrays.
+
+`N` simulations. Arrays named here are views: they change with every call that steps, resets or forwards.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import mjbatch
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Ids = NDArray[np.int64]
+
+
+class Simulation:
+    """Hold a batch of simulations and the arrays that the environments need."""
+
+    def __init__(self, model: mujoco.MjModel, num_envs: int, threads: int) -> None:
+        self.model = model
+        self.num_envs = num_envs
+        self.batch = mjbatch.Batch(model, num_envs, min(threads, num_envs))
+        self.state: Array = self.batch.bind("state")
+        self.qpos: Array = self.batch.bind("qpos")
+        self.qvel: Array = self.batch.bind("qvel")
+        self.ctrl: Array = self.batch.bind("ctrl")
+        self.mocap_pos: Array = self.batch.bind("mocap_pos")
+        self.mocap_quat: Array = self.batch.bind("mocap_quat")
+        self.body_pos: Array = self.batch.bind("xpos")
+        self.body_quat: Array = self.batch.bind("xquat")
+        self.site_pos: Array = self.batch.bind("site_xpos")
+        self.site_mat: Array = self.batch.bind("site_xmat")
+        self._motion_axes: Array = self.batch.bind("cdof")
+        self._subtree_com: Array = self.batch.bind("subtree_com")
+        self.batch.reset()
+
+    def step(self, substeps: int) -> None:
+        """Advance every simulation by `substeps` physics steps."""
+        self.batch.step(nstep=substeps)
+
+    def forward(self) -> None:
+        """Bring everything derived up to date with positions and velocities."""
+        self.batch.forward()
+
+    def reset(self, ids: Ids, qpos: Array, qvel: Array) -> None:
+        """Start simulations `ids` afresh from `qpos` `[len(ids), nq]` and `qvel` `[len(ids), nv]`."""
+        self.batch.reset(ids)
+        self.qpos[ids] = qpos
+        self.qvel[ids] = qvel
+        self.batch.forward(ids)
+
+    def site(self, name: str) -> Site:
+        """Resolve a site once, with the joints that move it."""
+        site = self.model.site(name).id
+        body = int(self.model.site_bodyid[site])
+        return Site(self, site, int(self.model.body_rootid[body]), _dofs_above(self.model, body))
+
+    def mocap(self, mocap_body: str, welded_body: str) -> Mocap:
+        """Resolve a mocap body and the body that is welded to it once."""
+        mocap_id = int(self.model.body_mocapid[self.model.body(mocap_body).id])
+        return Mocap(self, mocap_id, self.model.body(welded_body).id)
+
+    def velocity_parts(self, dofs: Sequence[int] | NDArray[np.int64], root: int) -> tuple[Array, Array, Array]:
+        """Return motion axes `[N, dofs, 6]`, joint velocities `[N, dofs]` and the root's centre of mass `[N, 3]`."""
+        return self._motion_axes[:, dofs], self.qvel[:, dofs], self._subtree_com[:, root]
+
+
+@dataclass(frozen=True)
+class Site:
+    """A named point of the scene."""
+
+    simulation: Simulation
+    index: int
+    root: int
+    dofs: NDArray[np.int64]
+
+    @property
+    def pos(self) -> Array:
+        """Positions [m], `[N, 3]`, a view."""
+        return self.simulation.site_pos[:, self.index]
+
+    @property
+    def mat(self) -> Array:
+        """Rotation matrices, `[N, 3, 3]`, a view."""
+        return self.simulation.site_mat[:, self.index].reshape(-1, 3, 3)
+
+    def velocity(self) -> tuple[Array, Array]:
+        """Return linear [m/s] and angular [rad/s] velocity, each `[N, 3]`.
+
+        It is the site's Jacobian times the joint velocities, as in the reference: not MuJoCo's own `cvel`, which
+        lags one substep behind when the scene was stepped last.
+        """
+        axes, speeds, com = self.simulation.velocity_parts(self.dofs, self.root)
+        twist = np.einsum("nds,nd->ns", axes, speeds)
+        angular, linear = twist[:, :3], twist[:, 3:]
+        return linear + np.cross(angular, self.pos - com), angular
+
+
+@dataclass(frozen=True)
+class Mocap:
+    """A mocap body that pulls the body welded to it."""
+
+    simulation: Simulation
+    mocap_id: int
+    body_id: int
+
+    def pull(self, position_change: NDArray[np.floating], quaternion_change: NDArray[np.floating]) -> None:
+        """Put the mocap where its body is now, plus a change of position [m] and a raw one of the quaternion."""
+        simulation = self.simulation
+        simulation.mocap_pos[:, self.mocap_id] = simulation.body_pos[:, self.body_id] + position_change
+        simulation.mocap_quat[:, self.mocap_id] = simulation.body_quat[:, self.body_id] + quaternion_change
+
+
+def _dofs_above(model: mujoco.MjModel, body: int) -> NDArray[np.int64]:
+    """Return the degrees of freedom that move a body, from the world down."""
+    dofs: list[int] = []
+    while body > 0:
+        first = int(model.body_dofadr[body])
+        if first >= 0:
+            dofs = [*range(first, first + int(model.body_dofnum[body])), *dofs]
+        body = int(model.body_parentid[body])
+    return np.asarray(dofs, dtype=np.int64)
