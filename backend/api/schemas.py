@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from datetime import datetime
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
 from backend.store.states import RunState
 from sldr_core.config import Phase
+
+Seed = Annotated[int, Field(ge=0, lt=2**31)]
 
 
 class Strict(BaseModel):
@@ -70,15 +72,13 @@ class Choices(Strict):
     config_schema: dict[str, Any] = Field(description="JSON schema of a run's config, with defaults.")
 
 
-class Launch(BaseModel):
+class Launch(Strict):
     """A request to train: one run per seed, with the locomotion run they need."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
 
     task: str
     phase: Phase = "manipulation"
     method: str
-    seeds: list[int] = Field(min_length=1, max_length=100)
+    seeds: list[Seed] = Field(min_length=1, max_length=100)
     preset: str
     overrides: dict[str, Any] = Field(default_factory=dict, description="Settings laid over the preset, nested.")
 
@@ -142,6 +142,12 @@ class RunPage(Strict):
     runs: list[RunSummary]
     next_cursor: str | None
     total: int
+
+
+class LaunchResult(Strict):
+    """The runs of a launch, queued or shared, the locomotion run first."""
+
+    runs: list[RunSummary]
 
 
 class RunDetail(RunSummary):
@@ -226,10 +232,8 @@ class Workers(Strict):
     workers: list[Worker]
 
 
-class ViewerRequest(BaseModel):
+class ViewerRequest(Strict):
     """A request to watch the newest policy of a run in 3D."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
 
     run_id: str
 
