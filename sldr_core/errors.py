@@ -1,12 +1,12 @@
 """The errors that a user of the library can meet, each naming the culprit and the way out.
 
-    SldrError
-    ├── UnknownName          a task, method, preset or setting that does not exist
-    ├── InvalidConfig        a setting with a value that cannot work
-    ├── LocomotionMissing    a manipulation run was started without the locomotion model it needs
-    ├── BadFile              a checkpoint, model or episode file that is corrupt, foreign or unfit
-    ├── DiskTooFull          the run's files would not fit on the disk
-    └── TrainingDiverged     a loss, weight or reward stopped being finite
+SldrError
+├── UnknownName          a task, method, preset or setting that does not exist
+├── InvalidConfig        a setting with a value that cannot work
+├── LocomotionMissing    a manipulation run was started without the locomotion model it needs
+├── BadFile              a checkpoint, model or episode file that is corrupt, foreign or unfit
+├── DiskTooFull          the run's files would not fit on the disk
+└── TrainingDiverged     a loss, weight or reward stopped being finite
 """
 
 from __future__ import annotations

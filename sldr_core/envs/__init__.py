@@ -57,7 +57,9 @@ def make_envs(
         spec=spec,
         phase=phase,
         simulation=simulation,
-        actor=ObjectActuation(simulation) if phase == "locomotion" else GripperActuation(simulation, spec.gripper_blocked),
+        actor=ObjectActuation(simulation)
+        if phase == "locomotion"
+        else GripperActuation(simulation, spec.gripper_blocked),
         bystander=gripper if phase == "locomotion" else None,
         bystander_moves=robot == "random",
         observer=RobotObserver(simulation) if phase == "manipulation" else ObjectObserver(simulation),

@@ -11,9 +11,7 @@ def goal_distance(achieved: NDArray[np.floating], goal: NDArray[np.floating]) ->
     return np.sqrt(np.square(achieved - goal).sum(axis=-1))
 
 
-def sparse_reward(
-    achieved: NDArray[np.floating], goal: NDArray[np.floating], threshold: float
-) -> NDArray[np.float32]:
+def sparse_reward(achieved: NDArray[np.floating], goal: NDArray[np.floating], threshold: float) -> NDArray[np.float32]:
     """Return 0 where the goal is within `threshold` [m], else -1 (paper §3), for goals `[..., G]`."""
     return -(goal_distance(achieved, goal) > threshold).astype(np.float32)
 

@@ -93,6 +93,7 @@ PRESETS: dict[str, Preset] = {
                 },
                 "agent": {"hidden_sizes": [32, 32, 32]},
                 "replay": {"capacity": 2000},
+                "compute": {"threads": 1},
                 "sldr": {"gate": 0.0},
             },
             locomotion={
@@ -107,6 +108,7 @@ PRESETS: dict[str, Preset] = {
                 },
                 "agent": {"hidden_sizes": [32, 32, 32]},
                 "replay": {"capacity": 2000},
+                "compute": {"threads": 1},
             },
         ),
     )
@@ -151,7 +153,11 @@ def make_locomotion_config(config: TrainConfig, preset: str) -> TrainConfig:
 
     One object serves every seed, so the locomotion run always has seed 0.
     """
-    compute = {"device": config.compute.device, "precision": config.compute.precision, "threads": config.compute.threads}
+    compute = {
+        "device": config.compute.device,
+        "precision": config.compute.precision,
+        "threads": config.compute.threads,
+    }
     overrides = {"compute": compute, "scene": {"locomotion_robot": config.scene.locomotion_robot}}
     return make_config(config.task, "locomotion", LOCOMOTION_METHOD, 0, preset, overrides)
 

@@ -1,1 +1,20 @@
+"""Training and measuring: the composition root, the loop, and what it reads and writes."""
 
+from sldr_core.training.directory import DirectoryRecorder, write_atomically
+from sldr_core.training.evaluation import EvaluationResult, evaluate
+from sldr_core.training.loop import TrainResult, train
+from sldr_core.training.policy import Policy, load_policy
+from sldr_core.training.recorder import Recorder, StopReason
+
+__all__ = [
+    "DirectoryRecorder",
+    "EvaluationResult",
+    "Policy",
+    "Recorder",
+    "StopReason",
+    "TrainResult",
+    "evaluate",
+    "load_policy",
+    "train",
+    "write_atomically",
+]

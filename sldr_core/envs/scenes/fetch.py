@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from importlib.resources import files
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Literal
 
@@ -89,7 +89,10 @@ def settle_fetch(task: TaskSpec) -> FetchStart:
 
 
 def _model_path(task: TaskSpec) -> Path:
-    return Path(str(files("gymnasium_robotics"))) / "envs" / "assets" / task.model_file
+    # Found without being imported: importing it costs a second and prints warnings about other environments.
+    package = find_spec("gymnasium_robotics")
+    assert package is not None and package.submodule_search_locations is not None
+    return Path(package.submodule_search_locations[0]) / "envs" / "assets" / task.model_file
 
 
 def _remove_robot(spec: mujoco.MjSpec) -> None:

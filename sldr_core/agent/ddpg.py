@@ -1,0 +1,159 @@
+"""DDPG with one critic per reward stream (paper §3.1 and §4.3).
+
+`B` batch, `S` streams, `F` features, `A` action.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import AbstractContextManager
+from copy import deepcopy
+from typing import Any
+
+import torch
+from torch import Tensor
+
+from sldr_core.agent.losses import actor_loss, critic_losses, lowest_return, td_target
+from sldr_core.config import AgentConfig
+from sldr_core.nets.mlp import Mlp, MlpStack
+from sldr_core.nets.normalizer import Normalizer
+from sldr_core.nets.transitions import Transitions
+from sldr_core.nets.views import View
+
+SATURATED = 0.99
+"""An action entry beyond this counts as saturated."""
+
+
+class DdpgAgent:
+    """Act, and learn from batches.
+
+    Attributes:
+        normalizer: running statistics of the visited features.
+        actor, critics: the online networks; `critics` is a stack of `S`.
+    """
+
+    def __init__(
+        self,
+        view: View,
+        action_size: int,
+        stream_names: Sequence[str],
+        stream_weights: Sequence[float],
+        config: AgentConfig,
+        generator: torch.Generator,
+        device: torch.device,
+        autocast: bool,
+    ) -> None:
+        self._config = config
+        self._view = view
+        self._streams = tuple(stream_names)
+        self._device = device
+        self._autocast = autocast
+        hidden = config.hidden_sizes
+        self.normalizer = Normalizer(view.size).to(device)
+        self.actor = Mlp((view.size, *hidden, action_size), generator, squash=True).to(device)
+        self.critics = MlpStack(len(self._streams), (view.size + action_size, *hidden, 1), generator).to(device)
+        self._target_actor = deepcopy(self.actor).requires_grad_(False)
+        self._target_critics = deepcopy(self.critics).requires_grad_(False)
+        self._weights = torch.tensor(stream_weights, device=device)
+        self._actor_optimiser = torch.optim.Adam(self.actor.parameters(), lr=config.learning_rate, fused=True)
+        self._critic_optimiser = torch.optim.Adam(self.critics.parameters(), lr=config.learning_rate, fused=True)
+
+    def features(self, obs: Tensor, goal: Tensor) -> Tensor:
+        """Return normalised features `[..., F]`."""
+        return self.normalizer(self._view.features(obs, goal))
+
+    @torch.no_grad()
+    def act(self, obs: Tensor, goal: Tensor) -> Tensor:
+        """Return the deterministic actions `[..., A]` of the online actor."""
+        return self.actor(self.features(obs.to(self._device), goal.to(self._device))).cpu()
+
+    def observe(self, obs: Tensor, goal: Tensor) -> None:
+        """Take visited observations and their original goals into the running statistics."""
+        self.normalizer.update(self._view.features(obs.to(self._device), goal.to(self._device)))
+
+    def update(self, batch: Transitions, rewards: Tensor) -> dict[str, Tensor]:
+        """Learn from one batch.
+
+        Args:
+            batch: the transitions.
+            rewards: reward of each stream, `[S, B]`.
+
+        Returns:
+            Scalars by metric name, detached and still on the device.
+        """
+        with self._precision():
+            features = self.features(batch.obs, batch.goal)
+            next_features = self.features(batch.next_obs, batch.goal)
+            metrics = self._update_critics(features, batch.action, rewards, next_features)
+            return {**metrics, **self._update_actor(features)}
+
+    def sync_targets(self) -> None:
+        """Move the target networks towards the online ones by the target rate."""
+        for online, target in ((self.actor, self._target_actor), (self.critics, self._target_critics)):
+            pairs = list(target.parameters()), list(online.parameters())
+            torch._foreach_lerp_(*pairs, self._config.target_rate)  # pyright: ignore[reportPrivateUsage]
+
+    def state_dict(self) -> dict[str, Any]:
+        """Return all that learning goes on from."""
+        return {name: part.state_dict() for name, part in self._parts().items()}
+
+    def load_state_dict(self, state: dict[str, Any]) -> None:
+        """Go on from what `state_dict` returned."""
+        for name, part in self._parts().items():
+            part.load_state_dict(state[name])
+
+    def _parts(self) -> dict[str, Any]:
+        return {
+            "normalizer": self.normalizer,
+            "actor": self.actor,
+            "critics": self.critics,
+            "target_actor": self._target_actor,
+            "target_critics": self._target_critics,
+            "actor_optimiser": self._actor_optimiser,
+            "critic_optimiser": self._critic_optimiser,
+        }
+
+    def _update_critics(
+        self, features: Tensor, action: Tensor, rewards: Tensor, next_features: Tensor
+    ) -> dict[str, Tensor]:
+        with torch.no_grad():
+            next_action = self._target_actor(next_features)
+            next_q = self._target_critics(torch.cat([next_features, next_action], dim=-1))[..., 0]
+            target = td_target(rewards, next_q.float(), self._config.gamma)
+        q = self.critics(torch.cat([features, action], dim=-1))[..., 0].float()
+        losses = critic_losses(q, target)
+        _descend(losses.sum(), self.critics, self._critic_optimiser)
+        low = lowest_return(self._config.gamma)
+        clipped = ((target <= low) | (target >= 0.0)).float().mean(dim=1)
+        metrics: dict[str, Tensor] = {}
+        values = q.detach()
+        for index, name in enumerate(self._streams):
+            metrics[f"critic/{name}/loss"] = losses[index].detach()
+            metrics[f"critic/{name}/q_mean"] = values[index].mean()
+            metrics[f"critic/{name}/q_min"] = values[index].min()
+            metrics[f"critic/{name}/q_max"] = values[index].max()
+            metrics[f"critic/{name}/target_clip_share"] = clipped[index]
+            metrics[f"stream/{name}/mean"] = rewards[index].mean()
+        return metrics
+
+    def _update_actor(self, features: Tensor) -> dict[str, Tensor]:
+        action = self.actor(features)
+        q = self.critics(torch.cat([features, action], dim=-1))[..., 0].float()
+        loss = actor_loss(q, self._weights, action.float(), self._config.action_l2)
+        _descend(loss, self.actor, self._actor_optimiser)
+        return {
+            "actor/loss": loss.detach(),
+            "actor/saturated_share": (action.detach().abs() > SATURATED).float().mean(),
+        }
+
+    def _precision(self) -> AbstractContextManager[Any]:
+        return torch.autocast(self._device.type, dtype=torch.bfloat16, enabled=self._autocast)
+
+
+def _descend(loss: Tensor, module: torch.nn.Module, optimiser: torch.optim.Optimizer) -> None:
+    """Take one step on the parameters of `module` alone; nothing else gets a gradient."""
+    parameters = list(module.parameters())
+    gradients = torch.autograd.grad(loss, parameters)
+    for parameter, gradient in zip(parameters, gradients, strict=True):
+        parameter.grad = gradient
+    optimiser.step()

@@ -1,0 +1,60 @@
+"""The inverse model: which object action explains a transition (paper Eq. 9, Algorithm 1)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import torch
+from torch import Tensor
+
+from sldr_core.config import AgentConfig
+from sldr_core.nets.mlp import Mlp
+from sldr_core.nets.normalizer import Normalizer
+from sldr_core.nets.transitions import Transitions
+from sldr_core.nets.views import OBJECT_STATE_SIZE, transition_features
+
+
+class InverseLearner:
+    """Learn w = I(z, z') beside the object's policy, from the same batches.
+
+    Attributes:
+        normalizer: running statistics of transition features.
+        net: the inverse model.
+    """
+
+    def __init__(
+        self, action_size: int, config: AgentConfig, generator: torch.Generator, device: torch.device, autocast: bool
+    ) -> None:
+        inputs = 2 * OBJECT_STATE_SIZE
+        self.normalizer = Normalizer(inputs).to(device)
+        self.net = Mlp((inputs, *config.hidden_sizes, action_size), generator).to(device)
+        self._optimiser = torch.optim.Adam(self.net.parameters(), lr=config.learning_rate, fused=True)
+        self._device = device
+        self._autocast = autocast
+
+    def observe(self, state: Tensor, next_state: Tensor) -> None:
+        """Take visited transitions `[..., Z]` into the running statistics."""
+        self.normalizer.update(transition_features(state.to(self._device), next_state.to(self._device)))
+
+    def update(self, batch: Transitions) -> dict[str, Tensor]:
+        """Learn from one batch of the object's own transitions; return scalars by metric name."""
+        with torch.autocast(self._device.type, dtype=torch.bfloat16, enabled=self._autocast):
+            seen = self.normalizer(transition_features(batch.obs, batch.next_obs))
+            loss = (self.net(seen).float() - batch.action).square().mean()
+        parameters = list(self.net.parameters())
+        for parameter, gradient in zip(parameters, torch.autograd.grad(loss, parameters), strict=True):
+            parameter.grad = gradient
+        self._optimiser.step()
+        return {"inverse/loss": loss.detach()}
+
+    def state_dict(self) -> dict[str, Any]:
+        """Return all that learning goes on from."""
+        return {name: part.state_dict() for name, part in self._parts().items()}
+
+    def load_state_dict(self, state: dict[str, Any]) -> None:
+        """Go on from what `state_dict` returned."""
+        for name, part in self._parts().items():
+            part.load_state_dict(state[name])
+
+    def _parts(self) -> dict[str, Any]:
+        return {"normalizer": self.normalizer, "net": self.net, "optimiser": self._optimiser}

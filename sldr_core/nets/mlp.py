@@ -1,0 +1,71 @@
+"""Multi-layer perceptrons: one alone, or several of equal shape evaluated as one.
+
+`B` batch, `S` networks of a stack.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from itertools import pairwise
+
+import torch
+from torch import Tensor, nn
+
+
+class Mlp(nn.Module):
+    """Map `[..., inputs]` to `[..., outputs]` through hidden layers with ReLU (paper §6.1)."""
+
+    def __init__(self, sizes: Sequence[int], generator: torch.Generator, squash: bool = False) -> None:
+        """Make the layers.
+
+        Args:
+            sizes: units from the input to the output.
+            generator: source of the initial weights.
+            squash: whether the output goes through tanh.
+        """
+        super().__init__()
+        self.weights = nn.ParameterList()
+        self.biases = nn.ParameterList()
+        for inputs, outputs in pairwise(sizes):
+            self.weights.append(nn.Parameter(_uniform((outputs, inputs), inputs, generator)))
+            self.biases.append(nn.Parameter(_uniform((outputs,), inputs, generator)))
+        self._squash = squash
+
+    def forward(self, x: Tensor) -> Tensor:
+        """Return `[..., outputs]`."""
+        last = len(self.weights) - 1
+        for layer, (weight, bias) in enumerate(zip(self.weights, self.biases, strict=True)):
+            x = nn.functional.linear(x, weight, bias)
+            if layer < last:
+                x = x.relu()
+        return x.tanh() if self._squash else x
+
+
+class MlpStack(nn.Module):
+    """Evaluate `S` networks of equal shape on one input, in one batched product a layer."""
+
+    def __init__(self, count: int, sizes: Sequence[int], generator: torch.Generator) -> None:
+        super().__init__()
+        self.count = count
+        self.weights = nn.ParameterList()
+        self.biases = nn.ParameterList()
+        for inputs, outputs in pairwise(sizes):
+            self.weights.append(nn.Parameter(_uniform((count, inputs, outputs), inputs, generator)))
+            self.biases.append(nn.Parameter(_uniform((count, 1, outputs), inputs, generator)))
+
+    def forward(self, x: Tensor) -> Tensor:
+        """Return `[S, B, outputs]` of `[B, inputs]`."""
+        stacked = x.expand(self.count, *x.shape)
+        last = len(self.weights) - 1
+        for layer, (weight, bias) in enumerate(zip(self.weights, self.biases, strict=True)):
+            stacked = torch.baddbmm(bias, stacked, weight)
+            if layer < last:
+                stacked = stacked.relu()
+        return stacked
+
+
+def _uniform(shape: tuple[int, ...], inputs: int, generator: torch.Generator) -> Tensor:
+    """Draw as `torch.nn.Linear` does: uniform within 1 / sqrt(inputs)."""
+    bound = 1.0 / math.sqrt(inputs)
+    return torch.empty(shape).uniform_(-bound, bound, generator=generator)

@@ -1,0 +1,103 @@
+"""Hindsight experience replay: which transitions are drawn, and which goals they get (paper §3.2).
+
+`B` batch, `T` steps of an episode, `D`, `G`, `A` as in `sldr_core.records`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sldr_core.records import Floats
+from sldr_core.replay.buffer import ReplayBuffer
+
+Reward = Callable[[Floats, Floats], Floats]
+"""Return the environment's reward `[B]` of achieved and desired goals `[B, G]`."""
+
+
+@dataclass(frozen=True)
+class Draw:
+    """Indices of a batch, before anything is read."""
+
+    episode: NDArray[np.int64]
+    """Slot of the episode, `[B]`."""
+    step: NDArray[np.int64]
+    """Step within it, 0..T-1, `[B]`."""
+    goal_step: NDArray[np.int64]
+    """Step whose achieved goal becomes the goal, in step+1..T; 0 where the goal stays the original, `[B]`."""
+
+
+@dataclass(frozen=True)
+class Sample:
+    """A batch of transitions under the goals they were given."""
+
+    obs: Floats
+    """`[B, D]`."""
+    next_obs: Floats
+    """`[B, D]`."""
+    goal: Floats
+    """`[B, G]`, relabelled or original."""
+    action: Floats
+    """`[B, A]`."""
+    reward: Floats
+    """`[B]`, of the environment, under `goal`."""
+    extra: dict[str, Floats]
+    """Values stored with each transition, `[B, ...]`."""
+
+
+def draw_steps(
+    rng: np.random.Generator, batch_size: int, length: int, relabel_probability: float
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Draw steps and, for a share of them, a later step of the same episode ("future").
+
+    Returns:
+        step: uniform over 0..length-1, `[B]`.
+        goal_step: uniform over step+1..length with `relabel_probability`, else 0, `[B]`.
+    """
+    step = rng.integers(length, size=batch_size)
+    later = step + 1 + (rng.random(batch_size) * (length - step)).astype(np.int64)
+    relabelled = rng.random(batch_size) < relabel_probability
+    return step, np.where(relabelled, later, 0)
+
+
+class HindsightSampler:
+    """Draw batches from a replay buffer, replacing goals in hindsight."""
+
+    def __init__(
+        self, buffer: ReplayBuffer, reward: Reward, relabel_probability: float, rng: np.random.Generator
+    ) -> None:
+        self.rng = rng
+        self._buffer = buffer
+        self._reward = reward
+        self._relabel_probability = relabel_probability
+        self._length = buffer.arrays["action"].shape[1]
+
+    def draw(self, batch_size: int) -> Draw:
+        """Draw a batch's indices, with replacement."""
+        rank = self.rng.integers(len(self._buffer), size=batch_size)
+        step, goal_step = draw_steps(self.rng, batch_size, self._length, self._relabel_probability)
+        return Draw(self._buffer.slot_of(rank), step, goal_step)
+
+    def sample(self, batch_size: int) -> Sample:
+        """Draw a batch of transitions."""
+        return read_sample(self._buffer, self.draw(batch_size), self._reward)
+
+
+def read_sample(buffer: ReplayBuffer, draw: Draw, reward: Reward) -> Sample:
+    """Read drawn transitions, each with the goal that its draw gives it and the reward under that goal."""
+    arrays = buffer.arrays
+    episode, step = draw.episode, draw.step
+    relabelled = (draw.goal_step > 0)[:, None]
+    goal = np.where(relabelled, arrays["achieved"][episode, draw.goal_step], arrays["goal"][episode])
+    known = ("obs", "achieved", "goal", "action")
+    return Sample(
+        obs=arrays["obs"][episode, step],
+        next_obs=arrays["obs"][episode, step + 1],
+        goal=goal,
+        action=arrays["action"][episode, step],
+        reward=reward(arrays["achieved"][episode, step + 1], goal),
+        extra={name: array[episode, step] for name, array in arrays.items() if name not in known},
+    )

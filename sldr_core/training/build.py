@@ -1,0 +1,151 @@
+"""The composition root: the one place that knows every part and puts a training together from its config."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import torch
+
+from sldr_core.agent import DdpgAgent, InverseLearner
+from sldr_core.config import TrainConfig
+from sldr_core.envs import Envs, make_envs
+from sldr_core.errors import LocomotionMissing
+from sldr_core.nets.locomotion_model import LocomotionModel, load_locomotion_model
+from sldr_core.nets.views import object_state, view_of
+from sldr_core.replay import HindsightSampler, ReplayBuffer
+from sldr_core.streams import SldrStream, Stream, TaskStream
+from sldr_core.training.compute import Compute, resolve_compute
+from sldr_core.training.rollout import Exploration
+
+REPLAY_FILE = "replay.bin"
+
+CHECKPOINT_CYCLES = 10
+"""A checkpoint is written at least once in so many cycles."""
+
+TEST_SEED_OFFSET = 2**31
+"""Test episodes draw from generators that no training episode uses."""
+
+
+@dataclass(frozen=True)
+class Parts:
+    """Everything one training is made of."""
+
+    config: TrainConfig
+    compute: Compute
+    envs: Envs
+    test_envs: Envs
+    buffer: ReplayBuffer
+    sampler: HindsightSampler
+    exploration: Exploration
+    agent: DdpgAgent
+    inverse: InverseLearner | None
+    """Learnt beside the object's policy in locomotion."""
+    streams: tuple[Stream, ...]
+
+
+def build_training(config: TrainConfig, directory: Path, locomotion_models: Sequence[Path]) -> Parts:
+    """Put a training together.
+
+    Args:
+        config: what to train.
+        directory: the run's directory, for the replay file.
+        locomotion_models: files of the locomotion models that the method takes its reward from.
+
+    Raises:
+        LocomotionMissing: the method needs a locomotion model and none is given.
+        BadFile: a locomotion model cannot be used.
+        DiskTooFull: the replay file would not fit.
+        InvalidConfig: the device does not exist.
+    """
+    models = _load_models(config, locomotion_models)
+    compute = resolve_compute(config.compute)
+    task, loop = config.task_spec, config.loop
+    sampling_seed, exploration_seed, weight_seed = np.random.SeedSequence(config.seed).spawn(3)
+    weights = torch.Generator().manual_seed(int(weight_seed.generate_state(1)[0]))
+    streams = _build_streams(config, compute, models)
+    envs, test_envs = (_build_envs(config, compute, config.seed + offset) for offset in (0, TEST_SEED_OFFSET))
+    agent = DdpgAgent(
+        view_of(task, config.phase),
+        envs.action_size,
+        [stream.name for stream in streams],
+        [stream.weight for stream in streams],
+        config.agent,
+        weights,
+        compute.device,
+        compute.autocast,
+    )
+    locomotion = config.phase == "locomotion"
+    inverse = InverseLearner(envs.action_size, config.agent, weights, compute.device, compute.autocast)
+    buffer = ReplayBuffer(
+        directory / REPLAY_FILE,
+        _episode_shapes(envs, streams),
+        capacity=config.replay.capacity // task.episode_length,
+        slack=(CHECKPOINT_CYCLES + loop.warmup_cycles + 1) * loop.episodes_per_cycle,
+    )
+    rng = np.random.default_rng(sampling_seed)
+    return Parts(
+        config=config,
+        compute=compute,
+        envs=envs,
+        test_envs=test_envs,
+        buffer=buffer,
+        sampler=HindsightSampler(buffer, envs.reward, config.replay.relabel_probability, rng),
+        exploration=Exploration(config.exploration, np.random.default_rng(exploration_seed)),
+        agent=agent,
+        inverse=inverse if locomotion else None,
+        streams=streams,
+    )
+
+
+def _load_models(config: TrainConfig, paths: Sequence[Path]) -> list[LocomotionModel]:
+    if not config.needs_locomotion:
+        return []
+    if not paths:
+        raise LocomotionMissing(
+            f"Method '{config.method}' needs a locomotion model of {config.task}: train one with "
+            f"`sldr train --task {config.task} --phase locomotion --method her`, then give its locomotion.pt."
+        )
+    return [load_locomotion_model(path, config.task) for path in paths]
+
+
+def _build_streams(config: TrainConfig, compute: Compute, models: Sequence[LocomotionModel]) -> tuple[Stream, ...]:
+    auxiliary = [
+        SldrStream(
+            f"object{index}",
+            config.sldr.weight,
+            model,
+            config.task_spec,
+            object_state,
+            compute.device,
+            compute.autocast,
+        )
+        for index, model in enumerate(models)
+    ]
+    return (TaskStream(), *auxiliary)
+
+
+def _build_envs(config: TrainConfig, compute: Compute, seed: int) -> Envs:
+    return make_envs(
+        config.task,
+        config.phase,
+        num_envs=config.loop.episodes_per_cycle,
+        seed=seed,
+        threads=compute.threads,
+        robot=config.scene.locomotion_robot,
+    )
+
+
+def _episode_shapes(envs: Envs, streams: Sequence[Stream]) -> dict[str, tuple[int, ...]]:
+    length = envs.episode_length
+    shapes: dict[str, tuple[int, ...]] = {
+        "obs": (length + 1, envs.obs_size),
+        "achieved": (length + 1, envs.goal_size),
+        "goal": (envs.goal_size,),
+        "action": (length, envs.action_size),
+    }
+    for stream in streams:
+        shapes.update({name: (length, size) for name, size in stream.stored_sizes.items()})
+    return shapes

@@ -1,0 +1,115 @@
+"""The checkpoint: everything that decides what comes next, so that a resumed run ends with the same bits."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass, fields
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch
+
+from sldr_core.config import TrainConfig, config_hash, config_to_dict
+from sldr_core.envs import Envs
+from sldr_core.errors import BadFile
+from sldr_core.nets.files import load_tensors
+from sldr_core.training.build import Parts
+
+CHECKPOINT_FILE = "checkpoint.pt"
+KIND = "checkpoint"
+
+
+@dataclass
+class Counters:
+    """How far a training is; the only state of the loop itself."""
+
+    cycle: int = 0
+    env_steps: int = 0
+    episodes: int = 0
+    updates: int = 0
+    wall_seconds: float = 0.0
+    """Seconds of training in earlier attempts and this one [s]."""
+    test_success_rate: float = -1.0
+    """Success of the newest test; -1 before the first."""
+    best_success_rate: float = -1.0
+    """Success of the best test; -1 before the first."""
+    tests_held: int = 0
+    """Newest tests in a row that reached `loop.stop_at_success`."""
+
+
+def write_checkpoint(path: Path, parts: Parts, counters: Counters) -> None:
+    """Write the whole state of a training to `path`; the replay file is flushed first."""
+    parts.buffer.flush()
+    torch.save(
+        {
+            "kind": KIND,
+            "config": config_to_dict(parts.config),
+            "config_hash": config_hash(parts.config),
+            "counters": asdict(counters),
+            "agent": parts.agent.state_dict(),
+            "inverse": parts.inverse.state_dict() if parts.inverse else None,
+            "envs": _pack_envs(parts.envs),
+            "test_envs": _pack_envs(parts.test_envs),
+            "sampler_rng": _pack_rng(parts.sampler.rng),
+            "exploration_rng": _pack_rng(parts.exploration.rng),
+            "replay_written": parts.buffer.written,
+        },
+        path,
+    )
+
+
+def read_checkpoint(path: Path, parts: Parts) -> Counters:
+    """Bring a training to the state of a checkpoint.
+
+    Raises:
+        BadFile: the file is corrupt, or was made by another config.
+    """
+    content = load_tensors(path, KIND)
+    _check_config(path, content, parts.config)
+    try:
+        parts.agent.load_state_dict(content["agent"])
+        if parts.inverse is not None:
+            parts.inverse.load_state_dict(content["inverse"])
+        _unpack_envs(parts.envs, content["envs"])
+        _unpack_envs(parts.test_envs, content["test_envs"])
+        _unpack_rng(parts.sampler.rng, content["sampler_rng"])
+        _unpack_rng(parts.exploration.rng, content["exploration_rng"])
+        parts.buffer.written = int(content["replay_written"])
+        return Counters(**{field.name: content["counters"][field.name] for field in fields(Counters)})
+    except (KeyError, TypeError, ValueError, RuntimeError) as err:
+        raise BadFile(f"{path} is no whole checkpoint ({err}); remove it to start this run anew.") from err
+
+
+def _check_config(path: Path, content: dict[str, Any], config: TrainConfig) -> None:
+    if content.get("config_hash") != config_hash(config):
+        raise BadFile(
+            f"{path} was made by another config than this run's; use another directory, or remove it to start anew."
+        )
+
+
+def _pack_rng(rng: np.random.Generator) -> str:
+    return json.dumps(rng.bit_generator.state)
+
+
+def _unpack_rng(rng: np.random.Generator, packed: str) -> None:
+    rng.bit_generator.state = json.loads(packed)
+
+
+def _pack_envs(envs: Envs) -> dict[str, Any]:
+    state = envs.state()
+    return {
+        "simulation": torch.from_numpy(state["simulation"]),
+        "goal": torch.from_numpy(state["goal"]),
+        "rngs": json.dumps(state["rngs"]),
+    }
+
+
+def _unpack_envs(envs: Envs, packed: dict[str, Any]) -> None:
+    envs.restore(
+        {
+            "simulation": packed["simulation"].numpy(),
+            "goal": packed["goal"].numpy(),
+            "rngs": json.loads(packed["rngs"]),
+        }
+    )

@@ -1,0 +1,65 @@
+"""Measuring a saved policy on episodes of its own."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from sldr_core.envs import make_envs
+from sldr_core.training.compute import resolve_compute
+from sldr_core.training.policy import load_policy
+from sldr_core.training.testing import run_test, wilson_interval
+
+MAX_SIMULATIONS = 38
+"""Episodes run side by side."""
+
+
+@dataclass(frozen=True)
+class EvaluationResult:
+    """How a policy did, with the 95 % Wilson interval of its success rate."""
+
+    task: str
+    phase: str
+    method: str
+    successes: int
+    episodes: int
+    success_rate: float
+    low: float
+    high: float
+    mean_final_distance: float
+
+
+def evaluate(path: Path, episodes: int, seed: int) -> EvaluationResult:
+    """Run a saved policy's deterministic actor.
+
+    Args:
+        path: a policy file, a checkpoint or a locomotion model.
+        episodes: episodes to run.
+        seed: seed of starts and goals.
+
+    Raises:
+        BadFile: the file holds no usable policy.
+    """
+    policy = load_policy(path)
+    config = policy.config
+    envs = make_envs(
+        config.task,
+        config.phase,
+        num_envs=min(episodes, MAX_SIMULATIONS),
+        seed=seed,
+        threads=resolve_compute(config.compute).threads,
+        robot=config.scene.locomotion_robot,
+    )
+    result = run_test(envs, policy.act, episodes, check=lambda: None)
+    low, high = wilson_interval(result.successes, result.episodes)
+    return EvaluationResult(
+        task=config.task,
+        phase=config.phase,
+        method=config.method,
+        successes=result.successes,
+        episodes=result.episodes,
+        success_rate=result.success_rate,
+        low=low,
+        high=high,
+        mean_final_distance=result.mean_final_distance,
+    )

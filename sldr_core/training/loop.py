@@ -1,0 +1,186 @@
+"""The training loop: cycles make epochs, each epoch ends with a test, and any moment can be resumed."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+import torch
+
+from sldr_core.config import TrainConfig
+from sldr_core.nets.locomotion_model import LocomotionModel, LocomotionNets, Measured
+from sldr_core.records import Step
+from sldr_core.training.build import CHECKPOINT_CYCLES, Parts, build_training
+from sldr_core.training.checkpoint import CHECKPOINT_FILE, Counters, read_checkpoint, write_checkpoint
+from sldr_core.training.cycle import collect, collect_random, learn
+from sldr_core.training.policy import BEST_POLICY_FILE, NEWEST_POLICY_FILE, write_policy
+from sldr_core.training.recorder import Recorder, StopReason
+from sldr_core.training.rollout import Collected, numpy_policy
+from sldr_core.training.testing import run_test
+
+LOCOMOTION_FILE = "locomotion.pt"
+
+
+@dataclass(frozen=True)
+class TrainResult:
+    """How a training ended."""
+
+    finished: bool
+    stopped: StopReason | None
+    test_success_rate: float | None
+    best_success_rate: float | None
+
+
+class _Cancelled(Exception):
+    """Leave the loop at once; what this cycle did is not kept."""
+
+
+def train(config: TrainConfig, recorder: Recorder, locomotion_models: Sequence[Path] = ()) -> TrainResult:
+    """Train to the end, or until the recorder asks to stop; go on from the directory's checkpoint if there is one.
+
+    Args:
+        config: what to train.
+        recorder: where numbers and files go, and who may ask to stop.
+        locomotion_models: files of the locomotion models that the method takes its reward from.
+
+    Raises:
+        SldrError: something that would fail again: a bad file, a missing model, a full disk, diverged numbers.
+    """
+    parts = build_training(config, recorder.directory, locomotion_models)
+    checkpoint = recorder.directory / CHECKPOINT_FILE
+    counters = read_checkpoint(checkpoint, parts) if checkpoint.exists() else Counters()
+    try:
+        stopped = _Loop(parts, counters, recorder).run()
+    except _Cancelled:
+        stopped = "cancel"
+    return TrainResult(
+        finished=stopped is None,
+        stopped=stopped,
+        test_success_rate=_if_tested(counters.test_success_rate),
+        best_success_rate=_if_tested(counters.best_success_rate),
+    )
+
+
+class _Loop:
+    """Drive one training from its counters onwards."""
+
+    def __init__(self, parts: Parts, counters: Counters, recorder: Recorder) -> None:
+        self._parts = parts
+        self._loop = parts.config.loop
+        self._counters = counters
+        self._recorder = recorder
+        self._clock = time.monotonic() - counters.wall_seconds
+
+    def run(self) -> StopReason | None:
+        """Run cycles until the end, or a request to stop; return that request."""
+        if self._counters.cycle == 0:
+            self._warm_up()
+        while not self._is_finished():
+            self._run_cycle()
+            stop = self._recorder.stop_requested()
+            if stop is not None or self._counters.cycle % CHECKPOINT_CYCLES == 0 or self._is_finished():
+                self._save_checkpoint()
+            if stop is not None and not self._is_finished():
+                return stop
+        return None
+
+    def _warm_up(self) -> None:
+        for _ in range(self._loop.warmup_cycles):
+            self._count(collect_random(self._parts, self._check))
+
+    def _run_cycle(self) -> None:
+        counters = self._counters
+        started = time.monotonic()
+        collected = collect(self._parts, self._check)
+        collected_at = time.monotonic()
+        metrics = learn(self._parts, counters.updates, self._check)
+        learnt_at = time.monotonic()
+        self._count(collected)
+        counters.updates += self._loop.updates_per_cycle
+        counters.cycle += 1
+        metrics["train/success_rate"] = float(collected.success.mean())
+        metrics["speed/env_steps_per_s"] = (
+            collected.episodes.action.shape[0] * collected.episodes.action.shape[1] / (collected_at - started)
+        )
+        metrics["speed/updates_per_s"] = self._loop.updates_per_cycle / (learnt_at - collected_at)
+        if counters.cycle % self._loop.cycles_per_epoch == 0:
+            metrics.update(self._test())
+        counters.wall_seconds = time.monotonic() - self._clock
+        metrics.update(self._progress())
+        self._recorder.log(self._step(), metrics)
+
+    def _test(self) -> dict[str, float]:
+        counters = self._counters
+        act = numpy_policy(self._parts.agent.act)
+        result = run_test(self._parts.test_envs, act, self._loop.test_episodes, self._check)
+        rate = result.success_rate
+        counters.test_success_rate = rate
+        counters.tests_held = counters.tests_held + 1 if rate >= self._loop.stop_at_success else 0
+        write = partial(write_policy, parts=self._parts, counters=counters)
+        self._recorder.save_file(NEWEST_POLICY_FILE, "policy", write)
+        if rate >= counters.best_success_rate:
+            counters.best_success_rate = rate
+            self._recorder.save_file(BEST_POLICY_FILE, "policy", write)
+            if self._parts.inverse is not None:
+                model = _locomotion_model(self._parts, Measured(rate, result.episodes))
+                self._recorder.save_file(LOCOMOTION_FILE, "locomotion", model.save)
+        return {
+            "test/success_rate": rate,
+            "test/best_success_rate": counters.best_success_rate,
+            "test/final_distance": result.mean_final_distance,
+        }
+
+    def _is_finished(self) -> bool:
+        wanted = self._loop.stop_after_tests
+        held = wanted > 0 and self._counters.tests_held >= wanted
+        return held or self._counters.cycle >= self._parts.config.total_cycles
+
+    def _progress(self) -> dict[str, float]:
+        done = 1.0 if self._is_finished() else self._counters.cycle / self._parts.config.total_cycles
+        return {
+            "progress/fraction": done,
+            "progress/seconds_left": self._counters.wall_seconds * (1.0 - done) / done,
+        }
+
+    def _count(self, collected: Collected) -> None:
+        count, length = collected.episodes.action.shape[:2]
+        self._counters.env_steps += count * length
+        self._counters.episodes += count
+
+    def _step(self) -> Step:
+        counters = self._counters
+        return Step(
+            cycle=counters.cycle,
+            epoch=-(-counters.cycle // self._loop.cycles_per_epoch),
+            env_steps=counters.env_steps,
+            episodes=counters.episodes,
+            updates=counters.updates,
+            wall_seconds=counters.wall_seconds,
+        )
+
+    def _save_checkpoint(self) -> None:
+        write = partial(write_checkpoint, parts=self._parts, counters=self._counters)
+        self._recorder.save_file(CHECKPOINT_FILE, "checkpoint", write)
+
+    def _check(self) -> None:
+        if self._recorder.stop_requested() == "cancel":
+            raise _Cancelled
+
+
+def _locomotion_model(parts: Parts, measured: Measured) -> LocomotionModel:
+    """Take the object's networks out of a locomotion training."""
+    assert parts.inverse is not None
+    nets = LocomotionNets(parts.config, torch.Generator())
+    nets.normalizer.load_state_dict(parts.agent.normalizer.state_dict())
+    nets.policy.load_state_dict(parts.agent.actor.state_dict())
+    nets.critic.load_state_dict(parts.agent.critics.state_dict())
+    nets.transition_normalizer.load_state_dict(parts.inverse.normalizer.state_dict())
+    nets.inverse.load_state_dict(parts.inverse.net.state_dict())
+    return LocomotionModel(nets, parts.config, measured)
+
+
+def _if_tested(rate: float) -> float | None:
+    return rate if rate >= 0.0 else None

@@ -1,0 +1,83 @@
+"""Collecting whole episodes, with or without exploration noise.
+
+`N` simulations, `T` steps, `A` action.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+
+from sldr_core.config import ExplorationConfig
+from sldr_core.envs import Envs
+from sldr_core.records import Episodes, Floats
+
+Act = Callable[[Floats, Floats], Floats]
+"""Return actions `[N, A]` of observations `[N, D]` and goals `[N, G]`."""
+
+Check = Callable[[], None]
+"""Called between steps; raises to abandon what is being done."""
+
+
+class Exploration:
+    """Add noise to a policy: now and then a uniform action, else Gaussian noise, then the limits (paper §6.1)."""
+
+    def __init__(self, config: ExplorationConfig, rng: np.random.Generator) -> None:
+        self.rng = rng
+        self._config = config
+
+    def around(self, act: Act) -> Act:
+        """Return the policy `act` with noise."""
+        return lambda obs, goal: self.perturb(act(obs, goal))
+
+    def perturb(self, action: Floats) -> Floats:
+        """Return noisy actions `[N, A]` in [-1, 1]."""
+        noisy = action + self.rng.normal(0.0, self._config.noise_std, action.shape).astype(np.float32)
+        uniform = self.random(action.shape)
+        chosen = self.rng.random((action.shape[0], 1)) < self._config.random_action_probability
+        return np.where(chosen, uniform, noisy).clip(-1.0, 1.0)
+
+    def random(self, shape: tuple[int, ...]) -> Floats:
+        """Return uniform actions."""
+        return self.rng.uniform(-1.0, 1.0, shape).astype(np.float32)
+
+
+@dataclass(frozen=True)
+class Collected:
+    """N episodes and how they ended."""
+
+    episodes: Episodes
+    success: NDArray[np.bool_]
+    """Whether the last step met the goal, `[N]`."""
+    final_distance: Floats
+    """Distance between the last achieved goal and the goal, `[N]`."""
+
+
+def collect_episodes(envs: Envs, act: Act, check: Check) -> Collected:
+    """Reset every simulation and run one episode in each."""
+    now = envs.reset()
+    length, count = envs.episode_length, envs.num_envs
+    obs = np.empty((count, length + 1, envs.obs_size), dtype=np.float32)
+    achieved = np.empty((count, length + 1, envs.goal_size), dtype=np.float32)
+    action = np.empty((count, length, envs.action_size), dtype=np.float32)
+    goal = now.goal.astype(np.float32)
+    for t in range(length):
+        obs[:, t], achieved[:, t] = now.obs, now.achieved
+        action[:, t] = act(obs[:, t], goal)
+        now = envs.step(action[:, t])
+        check()
+    obs[:, length], achieved[:, length] = now.obs, now.achieved
+    return Collected(
+        Episodes(obs, achieved, goal, action),
+        envs.success(now.achieved, now.goal),
+        np.linalg.norm(now.achieved - now.goal, axis=1).astype(np.float32),
+    )
+
+
+def numpy_policy(act: Callable[[torch.Tensor, torch.Tensor], torch.Tensor]) -> Act:
+    """Wrap a policy on tensors as one on arrays."""
+    return lambda obs, goal: act(torch.from_numpy(np.ascontiguousarray(obs)), torch.from_numpy(goal)).numpy()
