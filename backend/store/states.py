@@ -1,8 +1,17 @@
-"""The run state machine: which states there are and which changes are allowed."""
+"""The run state machine: which states there are, which changes are allowed, and the one way to make them."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import dataclass
+from datetime import datetime
 from enum import StrEnum
+from typing import Any
+
+from sqlalchemy import Connection, ScalarSelect, insert, select, update
+
+from backend.store.errors import NotFound, StaleFence, WrongState
+from backend.store.tables import AnyRow, run_events, runs
 
 
 class RunState(StrEnum):
@@ -22,3 +31,148 @@ class RunState(StrEnum):
     """Ended by an error that would repeat, or out of attempts."""
     CANCELLED = "cancelled"
     """Ended by a person."""
+
+
+ENDED = frozenset({RunState.SUCCEEDED, RunState.FAILED, RunState.CANCELLED})
+"""The states that nothing leaves."""
+
+
+class Event(StrEnum):
+    """What can happen to a run."""
+
+    CREATED = "created"
+    """It was launched."""
+    HELD = "held"
+    """It stays blocked, and it is known why."""
+    UNBLOCKED = "unblocked"
+    """All it needs is there."""
+    CLAIMED = "claimed"
+    """A worker took it."""
+    LOST = "lost"
+    """Its worker gave no sign of life."""
+    RETRIED = "retried"
+    """An attempt failed in a way that may not repeat."""
+    HANDED_BACK = "handed_back"
+    """Its worker was asked to stop."""
+    PAUSED = "paused"
+    """It was checkpointed and gave back its slot."""
+    RESUMED = "resumed"
+    """A person let it go on."""
+    CANCEL_REQUESTED = "cancel_requested"
+    """A person wants it to end; its worker does not know yet."""
+    SUCCEEDED = "succeeded"
+    """It was trained to its end."""
+    FAILED = "failed"
+    """It ended by an error."""
+    CANCELLED = "cancelled"
+    """It ended by a person's wish."""
+
+
+@dataclass(frozen=True)
+class Transition:
+    """Say what an event does to a run's state."""
+
+    allowed: frozenset[RunState]
+    """The states in which it can happen."""
+    to: RunState
+    """The state after it."""
+
+
+def _on(*allowed: RunState, to: RunState) -> Transition:
+    return Transition(frozenset(allowed), to)
+
+
+TRANSITIONS: Mapping[Event, Transition] = {
+    Event.HELD: _on(RunState.BLOCKED, to=RunState.BLOCKED),
+    Event.UNBLOCKED: _on(RunState.BLOCKED, to=RunState.QUEUED),
+    Event.CLAIMED: _on(RunState.QUEUED, to=RunState.RUNNING),
+    Event.LOST: _on(RunState.RUNNING, to=RunState.QUEUED),
+    Event.RETRIED: _on(RunState.RUNNING, to=RunState.QUEUED),
+    Event.HANDED_BACK: _on(RunState.RUNNING, to=RunState.QUEUED),
+    Event.PAUSED: _on(RunState.RUNNING, to=RunState.PAUSED),
+    Event.RESUMED: _on(RunState.PAUSED, to=RunState.QUEUED),
+    Event.CANCEL_REQUESTED: _on(RunState.RUNNING, to=RunState.RUNNING),
+    Event.SUCCEEDED: _on(RunState.RUNNING, to=RunState.SUCCEEDED),
+    Event.FAILED: _on(RunState.RUNNING, to=RunState.FAILED),
+    Event.CANCELLED: _on(RunState.BLOCKED, RunState.QUEUED, RunState.RUNNING, RunState.PAUSED, to=RunState.CANCELLED),
+}
+"""Every change of state there is; `created` is the way in."""
+
+
+def change_state(
+    conn: Connection,
+    run_id: str,
+    event: Event,
+    *,
+    at: datetime,
+    reason: str | None = None,
+    fence: int | None = None,
+    changes: Mapping[str, Any] | None = None,
+) -> AnyRow:
+    """Let `event` happen to a run and write it into its history; return the changed row.
+
+    Args:
+        reason: why, in one sentence; it stands on the run until the next change.
+        fence: the change is made only if this is still the run's fence.
+        changes: further columns to set.
+
+    Raises:
+        NotFound: there is no such run.
+        StaleFence: the run has moved on since the attempt with `fence` began.
+        WrongState: the run's state does not allow the event.
+    """
+    row = try_change_state(conn, run_id, event, at=at, reason=reason, fence=fence, changes=changes)
+    if row is not None:
+        return row
+    found = conn.execute(select(runs.c.state).where(runs.c.id == run_id)).one_or_none()
+    if found is None:
+        raise NotFound("run", run_id)
+    if fence is not None:
+        raise StaleFence(run_id, fence)
+    raise WrongState(run_id, found.state, event, TRANSITIONS[event].allowed)
+
+
+def try_change_state(
+    conn: Connection,
+    run_id: str | ScalarSelect[str],
+    event: Event,
+    *,
+    at: datetime,
+    reason: str | None = None,
+    fence: int | None = None,
+    changes: Mapping[str, Any] | None = None,
+) -> AnyRow | None:
+    """Let `event` happen to a run in one statement, or return None if it cannot."""
+    transition = TRANSITIONS[event]
+    change = (
+        update(runs)
+        .where(runs.c.id == run_id, runs.c.state.in_(transition.allowed))
+        .values({**_marks(transition.to, at), "state": transition.to, "reason": reason, **(changes or {})})
+        .returning(*runs.c)
+    )
+    if fence is not None:
+        change = change.where(runs.c.fence == fence)
+    row = conn.execute(change).one_or_none()
+    if row is not None:
+        append_event(conn, row.id, event, transition.to, at=at, attempt=row.attempt, detail=reason)
+    return row
+
+
+def append_event(
+    conn: Connection, run_id: str, event: Event, state: RunState, *, at: datetime, attempt: int, detail: str | None
+) -> None:
+    """Write one line of a run's history."""
+    values = {"run_id": run_id, "event": event, "state": state, "at": at, "attempt": attempt, "detail": detail}
+    conn.execute(insert(run_events).values(values))
+
+
+def _marks(to: RunState, at: datetime) -> dict[str, Any]:
+    """Return what every arrival in a state sets: a run that is not running has no worker and no lease."""
+    if to is RunState.RUNNING:
+        return {}
+    marks: dict[str, Any] = {"worker_id": None, "lease_until": None}
+    if to in ENDED:
+        marks |= {"ended_at": at}
+    if to is not RunState.QUEUED:
+        marks |= {"pause_requested": False}
+    return marks

@@ -1,0 +1,48 @@
+"""The errors of the store.
+
+SldrError
+├── NotFound             there is no such run, file or session
+└── WrongState           a run cannot do this in the state it is in
+Exception
+├── StaleFence           an attempt that was replaced tried to write
+└── StoreUnavailable     the database cannot be reached, is locked or full; the same call may work later
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from sldr_core.errors import SldrError
+
+
+class NotFound(SldrError):
+    """Report an id or name that the store does not hold."""
+
+    def __init__(self, kind: str, name: str) -> None:
+        super().__init__(f"There is no {kind} '{name}'.")
+        self.kind = kind
+        self.name = name
+
+
+class WrongState(SldrError):
+    """Report a change that the run's present state does not allow."""
+
+    def __init__(self, run_id: str, state: str, event: str, allowed: Iterable[str]) -> None:
+        states = ", ".join(sorted(allowed))
+        super().__init__(f"Run {run_id} is {state}; '{event}' is possible only for runs that are: {states}.")
+        self.run_id = run_id
+        self.state = state
+        self.event = event
+
+
+class StaleFence(Exception):
+    """Report a write of an attempt that is over: its run was given to another worker, or has ended."""
+
+    def __init__(self, run_id: str, fence: int) -> None:
+        super().__init__(f"Attempt with fence {fence} of run {run_id} is over; nothing was written.")
+        self.run_id = run_id
+        self.fence = fence
+
+
+class StoreUnavailable(Exception):
+    """Report that the database could not be read or written just now."""

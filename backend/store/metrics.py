@@ -1,0 +1,150 @@
+"""Metrics: written in batches by an attempt, read as columns with a cursor. Nothing is ever dropped.
+
+Points are keyed (run, attempt, step). A later attempt supersedes earlier ones from its first step on: the older
+points stay stored, but are read no more.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from sqlalchemy import ColumnElement, Connection, and_, func, insert, or_, select
+
+from backend.store.claims import Claim, hold_fence
+from backend.store.database import Database
+from backend.store.tables import metric_steps, metric_values
+from sldr_core.records import Step
+
+READ_LIMIT = 5000
+"""Points handed out by one read; the cursor leads to the rest."""
+
+
+@dataclass(frozen=True)
+class MetricPoint:
+    """Hold what was logged at one step."""
+
+    step: Step
+    """How far the training was."""
+    values: Mapping[str, float]
+    """Finite numbers by `group/name`."""
+
+
+@dataclass(frozen=True)
+class MetricColumns:
+    """Hold the points of a run in columns of equal length."""
+
+    cursor: int
+    """Pass as `after` to get what comes next."""
+    attempt: list[int] = field(default_factory=list[int])
+    """The attempt that logged each point; its points replace those of earlier attempts from its first step on."""
+    step: list[int] = field(default_factory=list[int])
+    """Cycles since the start of the training."""
+    epoch: list[int] = field(default_factory=list[int])
+    env_steps: list[int] = field(default_factory=list[int])
+    episodes: list[int] = field(default_factory=list[int])
+    updates: list[int] = field(default_factory=list[int])
+    wall_seconds: list[float] = field(default_factory=list[float])
+    values: dict[str, list[float | None]] = field(default_factory=dict[str, "list[float | None]"])
+    """A column a metric; None where it was not logged."""
+
+
+def append_metrics(db: Database, claim: Claim, points: Sequence[MetricPoint]) -> None:
+    """Store points in one transaction.
+
+    Raises:
+        StaleFence: the attempt is over; nothing was stored.
+    """
+    for point in points:
+        _check_finite(point)
+    with db.write() as conn:
+        hold_fence(conn, claim)
+        for point in points:
+            _insert_point(conn, claim, point)
+
+
+def read_metrics(db: Database, run_id: str, after: int = 0, names: Sequence[str] | None = None) -> MetricColumns:
+    """Return the points logged since the cursor `after`, oldest first, at most `READ_LIMIT` of them.
+
+    Args:
+        names: the metrics wanted; all if None.
+    """
+    with db.read() as conn:
+        steps = conn.execute(
+            select(metric_steps)
+            .where(metric_steps.c.run_id == run_id, metric_steps.c.id > after, *_not_superseded(conn, run_id))
+            .order_by(metric_steps.c.id)
+            .limit(READ_LIMIT)
+        ).all()
+        if not steps:
+            return MetricColumns(cursor=after)
+        wanted = [
+            metric_steps.c.run_id == run_id,
+            metric_steps.c.id >= steps[0].id,
+            metric_steps.c.id <= steps[-1].id,
+        ]
+        if names is not None:
+            wanted.append(metric_values.c.name.in_(names))
+        values = conn.execute(
+            select(metric_values).join(metric_steps, metric_steps.c.id == metric_values.c.step_id).where(*wanted)
+        ).all()
+    return _columns(steps, values)
+
+
+def _check_finite(point: MetricPoint) -> None:
+    for name, value in point.values.items():
+        if not math.isfinite(value):
+            raise ValueError(f"metric {name} is {value} at cycle {point.step.cycle}; only finite numbers are stored")
+
+
+def _insert_point(conn: Connection, claim: Claim, point: MetricPoint) -> None:
+    step = point.step
+    row = insert(metric_steps).values(
+        run_id=claim.run_id,
+        attempt=claim.attempt,
+        step=step.cycle,
+        epoch=step.epoch,
+        env_steps=step.env_steps,
+        episodes=step.episodes,
+        updates=step.updates,
+        wall_seconds=step.wall_seconds,
+    )
+    step_id = conn.execute(row.returning(metric_steps.c.id)).scalar_one()
+    values = [{"step_id": step_id, "name": name, "value": float(value)} for name, value in point.values.items()]
+    if values:
+        conn.execute(insert(metric_values), values)
+
+
+def _not_superseded(conn: Connection, run_id: str) -> list[ColumnElement[bool]]:
+    """Return conditions that leave out the points of attempts that a later one has overtaken."""
+    firsts = conn.execute(
+        select(metric_steps.c.attempt, func.min(metric_steps.c.step).label("first"))
+        .where(metric_steps.c.run_id == run_id)
+        .group_by(metric_steps.c.attempt)
+    ).all()
+    return [
+        or_(metric_steps.c.attempt >= row.attempt, and_(metric_steps.c.step < row.first))
+        for row in firsts
+        if row.attempt > min(other.attempt for other in firsts)
+    ]
+
+
+def _columns(steps: Sequence[Any], values: Sequence[Any]) -> MetricColumns:
+    position = {row.id: index for index, row in enumerate(steps)}
+    columns: dict[str, list[float | None]] = {name: [None] * len(steps) for name in sorted({v.name for v in values})}
+    for value in values:
+        if value.step_id in position:
+            columns[value.name][position[value.step_id]] = value.value
+    return MetricColumns(
+        cursor=steps[-1].id,
+        attempt=[row.attempt for row in steps],
+        step=[row.step for row in steps],
+        epoch=[row.epoch for row in steps],
+        env_steps=[row.env_steps for row in steps],
+        episodes=[row.episodes for row in steps],
+        updates=[row.updates for row in steps],
+        wall_seconds=[row.wall_seconds for row in steps],
+        values=columns,
+    )

@@ -1,0 +1,60 @@
+"""Where the service keeps its data: read once from the environment, then passed around."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+
+HOME_VARIABLE = "SLDR_HOME"
+DATABASE_VARIABLE = "SLDR_DATABASE_URL"
+DEFAULT_HOME = "~/.sldr"
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Say where files and tables lie."""
+
+    home: Path
+    """The one directory below which every file lies."""
+    database_url: str
+    """SQLAlchemy address of the store."""
+
+    @property
+    def runs_directory(self) -> Path:
+        """The directory that holds one directory a run."""
+        return self.home / "runs"
+
+    @property
+    def pictures_directory(self) -> Path:
+        """The rendered pictures of the tasks."""
+        return self.home / "pictures"
+
+    @property
+    def logs_directory(self) -> Path:
+        """The logs of the service's own processes."""
+        return self.home / "logs"
+
+    @property
+    def secret_path(self) -> Path:
+        """The key that signs viewer tokens."""
+        return self.home / "secret"
+
+    def run_directory(self, run_id: str) -> Path:
+        """Return the directory of one run; it exists once a worker has begun the run."""
+        return self.runs_directory / run_id
+
+    def as_environment(self) -> dict[str, str]:
+        """Return the environment variables that give a child process the same settings."""
+        return {HOME_VARIABLE: str(self.home), DATABASE_VARIABLE: self.database_url}
+
+
+def load_settings() -> Settings:
+    """Read the settings from the environment."""
+    home = Path(os.environ.get(HOME_VARIABLE) or DEFAULT_HOME).expanduser().absolute()
+    return Settings(home=home, database_url=os.environ.get(DATABASE_VARIABLE) or sqlite_url(home))
+
+
+def sqlite_url(home: Path) -> str:
+    """Return the address of the default database below `home`."""
+    return f"sqlite:///{home / 'sldr.db'}"

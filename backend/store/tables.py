@@ -1,0 +1,219 @@
+"""The tables. `migrations/` makes them; a test holds the two equal."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime
+from typing import Any
+
+from sqlalchemy import (
+    JSON,
+    BigInteger,
+    Boolean,
+    Column,
+    DateTime,
+    Dialect,
+    Float,
+    ForeignKey,
+    Index,
+    Integer,
+    MetaData,
+    Row,
+    String,
+    Table,
+    Text,
+    TypeDecorator,
+    false,
+)
+
+SCHEMA_REVISION = "0001"
+"""The migration that these tables correspond to."""
+
+AnyRow = Row[*tuple[Any, ...]]
+"""A row of whatever columns were asked for."""
+
+ID_LENGTH = 32
+NAME_LENGTH = 200
+
+
+class UtcDateTime(TypeDecorator[datetime]):
+    """Hand out aware UTC times on every database, also on those that store none."""
+
+    impl = DateTime(timezone=True)
+    cache_ok = True
+
+    def process_bind_param(self, value: datetime | None, dialect: Dialect) -> datetime | None:
+        """Refuse naive times and store the others in UTC."""
+        if value is None:
+            return None
+        if value.tzinfo is None:
+            raise ValueError(f"time {value} has no zone; use aware UTC times")
+        value = value.astimezone(UTC)
+        return value.replace(tzinfo=None) if dialect.name == "sqlite" else value
+
+    def process_result_value(self, value: datetime | None, dialect: Dialect) -> datetime | None:
+        """Return an aware UTC time."""
+        if value is None:
+            return None
+        return value.replace(tzinfo=UTC) if value.tzinfo is None else value.astimezone(UTC)
+
+
+metadata = MetaData(
+    naming_convention={
+        "ix": "ix_%(table_name)s_%(column_0_N_name)s",
+        "uq": "uq_%(table_name)s_%(column_0_N_name)s",
+        "fk": "fk_%(table_name)s_%(column_0_N_name)s",
+        "pk": "pk_%(table_name)s",
+    }
+)
+
+runs = Table(
+    "runs",
+    metadata,
+    Column("number", Integer, primary_key=True, autoincrement=True),
+    Column("id", String(ID_LENGTH), nullable=False, unique=True),
+    Column("task", String(NAME_LENGTH), nullable=False),
+    Column("phase", String(NAME_LENGTH), nullable=False),
+    Column("method", String(NAME_LENGTH), nullable=False),
+    Column("seed", BigInteger, nullable=False),
+    Column("preset", String(NAME_LENGTH), nullable=False),
+    Column("config", JSON, nullable=False),
+    Column("config_hash", String(ID_LENGTH), nullable=False),
+    Column("state", String(ID_LENGTH), nullable=False),
+    Column("reason", Text),
+    Column("success_rate", Float),
+    Column("attempt", Integer, nullable=False, server_default="0"),
+    Column("failures", Integer, nullable=False, server_default="0"),
+    Column("fence", Integer, nullable=False, server_default="0"),
+    Column("worker_id", String(ID_LENGTH)),
+    Column("lease_until", UtcDateTime),
+    Column("not_before", UtcDateTime),
+    Column("progress_at", UtcDateTime),
+    Column("cancel_requested", Boolean, nullable=False, server_default=false()),
+    Column("pause_requested", Boolean, nullable=False, server_default=false()),
+    Column("created_at", UtcDateTime, nullable=False),
+    Column("started_at", UtcDateTime),
+    Column("ended_at", UtcDateTime),
+    Index(None, "state", "number"),
+    Index(None, "config_hash"),
+)
+
+run_needs = Table(
+    "run_needs",
+    metadata,
+    Column("run_id", String(ID_LENGTH), ForeignKey("runs.id"), primary_key=True),
+    Column("needs_run_id", String(ID_LENGTH), ForeignKey("runs.id"), primary_key=True, index=True),
+)
+
+run_events = Table(
+    "run_events",
+    metadata,
+    Column("id", Integer, primary_key=True, autoincrement=True),
+    Column("run_id", String(ID_LENGTH), ForeignKey("runs.id"), nullable=False, index=True),
+    Column("at", UtcDateTime, nullable=False),
+    Column("event", String(ID_LENGTH), nullable=False),
+    Column("state", String(ID_LENGTH), nullable=False),
+    Column("attempt", Integer, nullable=False),
+    Column("detail", Text),
+)
+
+attempts = Table(
+    "attempts",
+    metadata,
+    Column("run_id", String(ID_LENGTH), ForeignKey("runs.id"), primary_key=True),
+    Column("attempt", Integer, primary_key=True, autoincrement=False),
+    Column("fence", Integer, nullable=False),
+    Column("worker_id", String(ID_LENGTH), nullable=False),
+    Column("started_at", UtcDateTime, nullable=False),
+    Column("ended_at", UtcDateTime),
+    Column("outcome", String(ID_LENGTH)),
+    Column("reason", Text),
+)
+
+run_progress = Table(
+    "run_progress",
+    metadata,
+    Column("run_id", String(ID_LENGTH), ForeignKey("runs.id"), primary_key=True),
+    Column("epoch", Integer, nullable=False),
+    Column("epochs", Integer, nullable=False),
+    Column("env_steps", BigInteger, nullable=False),
+    Column("episodes", Integer, nullable=False),
+    Column("updates", Integer, nullable=False),
+    Column("fraction", Float, nullable=False),
+    Column("success_rate", Float),
+    Column("best_success_rate", Float),
+    Column("env_steps_per_s", Float),
+    Column("updates_per_s", Float),
+    Column("seconds_left", Float),
+)
+
+metric_steps = Table(
+    "metric_steps",
+    metadata,
+    Column("id", Integer, primary_key=True, autoincrement=True),
+    Column("run_id", String(ID_LENGTH), ForeignKey("runs.id"), nullable=False),
+    Column("attempt", Integer, nullable=False),
+    Column("step", Integer, nullable=False),
+    Column("epoch", Integer, nullable=False),
+    Column("env_steps", BigInteger, nullable=False),
+    Column("episodes", Integer, nullable=False),
+    Column("updates", Integer, nullable=False),
+    Column("wall_seconds", Float, nullable=False),
+    Index(None, "run_id", "id"),
+    Index(None, "run_id", "attempt", "step"),
+)
+
+metric_values = Table(
+    "metric_values",
+    metadata,
+    Column("step_id", Integer, ForeignKey("metric_steps.id"), primary_key=True),
+    Column("name", String(NAME_LENGTH), primary_key=True),
+    Column("value", Float, nullable=False),
+    sqlite_with_rowid=False,
+)
+
+run_files = Table(
+    "run_files",
+    metadata,
+    Column("run_id", String(ID_LENGTH), ForeignKey("runs.id"), primary_key=True),
+    Column("name", String(NAME_LENGTH), primary_key=True),
+    Column("kind", String(NAME_LENGTH), nullable=False),
+    Column("path", Text, nullable=False),
+    Column("size", BigInteger, nullable=False),
+    Column("sha256", String(64), nullable=False),
+    Column("attempt", Integer, nullable=False),
+    Column("created_at", UtcDateTime, nullable=False),
+)
+
+workers = Table(
+    "workers",
+    metadata,
+    Column("id", String(ID_LENGTH), primary_key=True),
+    Column("host", String(NAME_LENGTH), nullable=False),
+    Column("pid", Integer, nullable=False),
+    Column("slots", Integer, nullable=False),
+    Column("started_at", UtcDateTime, nullable=False),
+    Column("beat_at", UtcDateTime, nullable=False),
+    Column("retired_at", UtcDateTime),
+)
+
+viewer_hosts = Table(
+    "viewer_hosts",
+    metadata,
+    Column("id", String(ID_LENGTH), primary_key=True),
+    Column("pid", Integer, nullable=False),
+    Column("beat_at", UtcDateTime, nullable=False),
+)
+
+viewer_sessions = Table(
+    "viewer_sessions",
+    metadata,
+    Column("id", String(ID_LENGTH), primary_key=True),
+    Column("run_id", String(ID_LENGTH), ForeignKey("runs.id"), nullable=False),
+    Column("state", String(ID_LENGTH), nullable=False, index=True),
+    Column("host_id", String(ID_LENGTH)),
+    Column("port", Integer),
+    Column("message", Text),
+    Column("created_at", UtcDateTime, nullable=False),
+    Column("touched_at", UtcDateTime, nullable=False),
+    Column("ended_at", UtcDateTime),
+)

@@ -1,0 +1,146 @@
+"""3D sessions: asked for by the API, opened by a viewer host, ended by either."""
+
+from __future__ import annotations
+
+import uuid
+from dataclasses import dataclass
+from datetime import datetime, timedelta
+from typing import Any, Literal
+
+from sqlalchemy import func, insert, select, update
+
+from backend.store.database import Database, current_time
+from backend.store.errors import NotFound
+from backend.store.tables import runs, viewer_hosts, viewer_sessions
+
+HOST_ALIVE_S = 15.0
+"""A viewer host counts as alive this long after its last sign of life [s]."""
+
+SessionState = Literal["starting", "ready", "ended", "failed"]
+"""Where a session stands."""
+
+OPEN: tuple[SessionState, ...] = ("starting", "ready")
+"""The states of sessions that are not over."""
+
+
+@dataclass(frozen=True)
+class Session:
+    """Describe one 3D session."""
+
+    id: str
+    run_id: str
+    state: SessionState
+    host_id: str | None
+    """The viewer host that serves it."""
+    port: int | None
+    """Where the host serves it on 127.0.0.1."""
+    message: str | None
+    """What it shows, or why it ended or failed."""
+    created_at: datetime
+    touched_at: datetime
+    """When somebody last looked at it."""
+    ended_at: datetime | None
+
+
+def request_session(db: Database, run_id: str) -> Session:
+    """Ask the viewer host for a session on a run.
+
+    Raises:
+        NotFound: there is no such run.
+    """
+    session_id = uuid.uuid4().hex
+    with db.write() as conn:
+        at = current_time(conn)
+        if conn.execute(select(runs.c.id).where(runs.c.id == run_id)).one_or_none() is None:
+            raise NotFound("run", run_id)
+        values = {"id": session_id, "run_id": run_id, "state": "starting", "created_at": at, "touched_at": at}
+        conn.execute(insert(viewer_sessions).values(values))
+    return get_session(db, session_id)
+
+
+def next_requested(db: Database, host_id: str) -> Session | None:
+    """Let a viewer host take the oldest session that no host has, or return None."""
+    oldest = (
+        select(viewer_sessions.c.id)
+        .where(viewer_sessions.c.state == "starting", viewer_sessions.c.host_id.is_(None))
+        .order_by(viewer_sessions.c.created_at)
+        .limit(1)
+        .with_for_update(skip_locked=True)
+        .scalar_subquery()
+    )
+    take = update(viewer_sessions).where(viewer_sessions.c.id == oldest).values(host_id=host_id)
+    with db.write() as conn:
+        row = conn.execute(take.returning(*viewer_sessions.c)).mappings().one_or_none()
+    return None if row is None else Session(**row)
+
+
+def mark_ready(db: Database, session_id: str, port: int, message: str | None = None) -> bool:
+    """Record that a session can be opened; False if somebody ended it meanwhile."""
+    return _change(db, session_id, ("starting",), {"state": "ready", "port": port, "message": message})
+
+
+def mark_ended(db: Database, session_id: str, failed: bool = False, message: str | None = None) -> bool:
+    """Record that a session is over; False if it was already."""
+    with db.read() as conn:
+        at = current_time(conn)
+    changes = {"state": "failed" if failed else "ended", "message": message, "ended_at": at}
+    return _change(db, session_id, OPEN, changes)
+
+
+def end_sessions_of_other_hosts(db: Database, host_id: str, message: str) -> int:
+    """End what hosts that are no more have left open; return how many that were."""
+    with db.write() as conn:
+        at = current_time(conn)
+        orphaned = (viewer_sessions.c.state.in_(OPEN), viewer_sessions.c.host_id != host_id)
+        changes = {"state": "ended", "message": message, "ended_at": at}
+        return conn.execute(update(viewer_sessions).where(*orphaned).values(changes)).rowcount
+
+
+def touch(db: Database, session_id: str) -> None:
+    """Record that somebody looks at a session."""
+    with db.write() as conn:
+        this = viewer_sessions.c.id == session_id
+        conn.execute(update(viewer_sessions).where(this).values(touched_at=current_time(conn)))
+
+
+def get_session(db: Database, session_id: str) -> Session:
+    """Return one session.
+
+    Raises:
+        NotFound: there is no such session.
+    """
+    with db.read() as conn:
+        row = conn.execute(select(viewer_sessions).where(viewer_sessions.c.id == session_id)).mappings().one_or_none()
+    if row is None:
+        raise NotFound("viewer session", session_id)
+    return Session(**row)
+
+
+def list_open(db: Database) -> list[Session]:
+    """Return the sessions that are not over, oldest first."""
+    query = select(viewer_sessions).where(viewer_sessions.c.state.in_(OPEN)).order_by(viewer_sessions.c.created_at)
+    with db.read() as conn:
+        return [Session(**row) for row in conn.execute(query).mappings()]
+
+
+def beat_host(db: Database, host_id: str, pid: int) -> None:
+    """Show that a viewer host is alive; the first call makes it known."""
+    with db.write() as conn:
+        at = current_time(conn)
+        change = update(viewer_hosts).where(viewer_hosts.c.id == host_id).values(beat_at=at, pid=pid)
+        if conn.execute(change).rowcount == 0:
+            conn.execute(insert(viewer_hosts).values(id=host_id, pid=pid, beat_at=at))
+
+
+def is_host_alive(db: Database) -> bool:
+    """Tell whether any viewer host has shown a sign of life lately."""
+    with db.read() as conn:
+        alive_since = current_time(conn) - timedelta(seconds=HOST_ALIVE_S)
+        query = select(func.count()).select_from(viewer_hosts).where(viewer_hosts.c.beat_at > alive_since)
+        return conn.execute(query).scalar_one() > 0
+
+
+def _change(db: Database, session_id: str, allowed: tuple[SessionState, ...], changes: dict[str, Any]) -> bool:
+    this = (viewer_sessions.c.id == session_id, viewer_sessions.c.state.in_(allowed))
+    with db.write() as conn:
+        return conn.execute(update(viewer_sessions).where(*this).values(changes)).rowcount > 0
