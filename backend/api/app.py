@@ -2,17 +2,40 @@
 
 from __future__ import annotations
 
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
 from importlib.metadata import version
+from pathlib import Path
 
+import httpx
 from fastapi import FastAPI
 from fastapi.routing import APIRoute
+from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddleware
 
+from backend.api import viewer_proxy
+from backend.api.dependencies import Service
 from backend.api.errors import add_error_answers
+from backend.api.origins import SameOrigin
+from backend.api.pages import BUILT_PAGE, add_pages
 from backend.api.routes import choices, health, launches, run_files, runs, viewer_sessions, workers
+from backend.api.tokens import ViewerTokens, load_secret
+from backend.store.database import open_database
+from backend.store.settings import Settings
+
+GZIP_LEVEL = 5
+"""Nearly as small as the smallest, several times as fast."""
+
+SMALLEST_GZIP = 1024
+"""Shorter answers are sent as they are [bytes]."""
 
 
-def create_app() -> FastAPI:
-    """Return the API over one data directory and store."""
+def create_app(settings: Settings, page: Path = BUILT_PAGE) -> FastAPI:
+    """Return the API over one data directory and store; both are opened when it starts to serve.
+
+    Args:
+        settings: where files and tables lie.
+        page: directory of the built page.
+    """
     app = FastAPI(
         title="SLDR",
         summary="Train robot manipulation with sparse rewards.",
@@ -21,11 +44,33 @@ def create_app() -> FastAPI:
         docs_url=None,
         redoc_url=None,
         generate_unique_id_function=_operation_id,
+        lifespan=_lifespan(settings),
     )
-    for routes in (health, choices, launches, runs, run_files, workers, viewer_sessions):
+    for routes in (health, choices, launches, runs, run_files, workers, viewer_sessions, viewer_proxy):
         app.include_router(routes.router)
+    add_pages(app, page)
     add_error_answers(app)
+    app.add_middleware(
+        GZipMiddleware,
+        minimum_size=SMALLEST_GZIP,
+        compresslevel=GZIP_LEVEL,
+        exclude_content_types=(*DEFAULT_EXCLUDED_CONTENT_TYPES, "application/octet-stream"),
+    )
+    app.add_middleware(SameOrigin)
     return app
+
+
+def _lifespan(settings: Settings):  # noqa: ANN202 - the decorator's type is longer than it helps
+    @asynccontextmanager
+    async def lifespan(app: FastAPI) -> AsyncIterator[None]:
+        database = open_database(settings)
+        with httpx.Client(trust_env=False, timeout=viewer_proxy.ANSWER_TIMEOUT_S) as viser:
+            tokens = ViewerTokens(load_secret(settings.secret_path))
+            app.state.service = Service(settings=settings, database=database, tokens=tokens, viser=viser)
+            yield
+        database.close()
+
+    return lifespan
 
 
 def _operation_id(route: APIRoute) -> str:

@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 
 from backend.api.app import create_app
+from backend.store.settings import load_settings
 
 
 def main() -> None:
@@ -18,7 +19,7 @@ def main() -> None:
         sys.exit("Say where to write the schema: python -m backend.api.schema FILE")
     path = Path(sys.argv[1])
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(json.dumps(create_app().openapi(), indent=2, sort_keys=True) + "\n")
+    path.write_text(json.dumps(create_app(load_settings()).openapi(), indent=2, sort_keys=True) + "\n")
 
 
 if __name__ == "__main__":

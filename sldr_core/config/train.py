@@ -13,7 +13,7 @@ from sldr_core.config.methods import METHODS, MethodSpec, find_method
 from sldr_core.config.tasks import TASKS, Phase, TaskSpec, find_task
 from sldr_core.errors import InvalidConfig, UnknownName
 
-_FROZEN = ConfigDict(extra="forbid", use_attribute_docstrings=True)
+_FROZEN = ConfigDict(extra="forbid", use_attribute_docstrings=True, allow_inf_nan=False)
 
 Positive = Annotated[int, Field(gt=0)]
 Share = Annotated[float, Field(ge=0.0, le=1.0)]

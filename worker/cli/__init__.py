@@ -1,0 +1,71 @@
+"""The command line: `sldr COMMAND ...`, one module per command, imported only when it is used."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from importlib import import_module
+from importlib.metadata import version
+
+from sldr_core.errors import SldrError, UnknownName
+
+COMMANDS = {
+    "serve": "Serve the page in the browser, with a worker and the 3D viewer.",
+    "worker": "Train queued runs on this machine.",
+    "viewer": "Serve 3D views of policies to the page.",
+    "train": "Train here and now, without page and queue.",
+    "evaluate": "Measure the success of a trained policy.",
+    "render": "Draw the picture of a task.",
+    "list": "List tasks, methods or presets.",
+}
+
+BAD_INPUT = 2
+"""Exit code for whatever the user can put right."""
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run one command and exit with its code; what the user can put right is told in one sentence."""
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    if not words or words[0] in ("-h", "--help"):
+        print(_help())
+        sys.exit(0)
+    if words[0] == "--version":
+        print(f"sldr {version('sldr')}")
+        sys.exit(0)
+    sys.exit(_run(words[0], words[1:]))
+
+
+def _run(command: str, arguments: list[str]) -> int:
+    try:
+        if command not in COMMANDS:
+            raise UnknownName("command", command, COMMANDS)
+        return import_module(f"worker.cli.{command}").main(arguments)
+    except SldrError as error:
+        return _fail(str(error))
+    except OSError as error:
+        if error.filename is None:
+            raise
+        return _fail(f"{error.filename}: {error.strerror}.")
+    except KeyboardInterrupt:
+        return 130
+
+
+def _fail(sentence: str) -> int:
+    print(f"sldr: {sentence}", file=sys.stderr)
+    return BAD_INPUT
+
+
+def _help() -> str:
+    width = max(map(len, COMMANDS))
+    lines = [f"  {name:{width}}  {summary}" for name, summary in COMMANDS.items()]
+    return "\n".join(
+        [
+            "usage: sldr COMMAND ...",
+            "",
+            "Train robot manipulation with sparse rewards, from the browser or from here.",
+            "",
+            *lines,
+            "",
+            "sldr COMMAND --help tells more. The service keeps its data in SLDR_HOME (default ~/.sldr).",
+        ]
+    )

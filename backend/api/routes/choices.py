@@ -7,9 +7,12 @@ from typing import Any
 from fastapi import APIRouter
 from fastapi.responses import FileResponse
 
-from backend.api.errors import NotBuilt, problem_responses
-from backend.api.schemas import Choices
-from sldr_core.config import Phase
+from backend.api.dependencies import ServiceSettings
+from backend.api.errors import ApiError, problem_responses
+from backend.api.schemas import Choices, Method, PresetSummary, Task
+from sldr_core.config import METHODS, PHASES, TASKS, Phase, TaskSpec, config_schema, config_to_dict
+from sldr_core.errors import UnknownName
+from sldr_core.presets import PRESETS, make_config
 
 router = APIRouter(prefix="/api", tags=["choices"])
 
@@ -17,7 +20,16 @@ router = APIRouter(prefix="/api", tags=["choices"])
 @router.get("/choices", responses=problem_responses())
 def get_choices() -> Choices:
     """List tasks, phases, methods and presets, with the JSON schema of a config."""
-    raise NotBuilt
+    return Choices(
+        tasks=[_task(spec) for spec in TASKS.values()],
+        phases=list(PHASES),
+        methods=[
+            Method(name=spec.name, title=spec.title, summary=spec.summary, needs_locomotion=spec.needs_locomotion)
+            for spec in METHODS.values()
+        ],
+        presets=[PresetSummary(name=preset.name, summary=preset.summary) for preset in PRESETS.values()],
+        config_schema=config_schema(),
+    )
 
 
 @router.get(
@@ -25,12 +37,31 @@ def get_choices() -> Choices:
     response_class=FileResponse,
     responses={200: {"content": {"image/png": {}}}} | problem_responses(404, 422),
 )
-def get_task_picture(task: str) -> FileResponse:
+def get_task_picture(task: str, settings: ServiceSettings) -> FileResponse:
     """Send the rendered picture of a task."""
-    raise NotBuilt
+    if task not in TASKS:
+        raise ApiError(404, str(UnknownName("task", task, TASKS)), "task")
+    path = settings.pictures_directory / f"{task}.png"
+    if not path.is_file():
+        raise ApiError(404, f"The picture of {task} is not drawn yet; a worker draws it when it starts.")
+    return FileResponse(path, media_type="image/png")
 
 
 @router.get("/defaults", responses=problem_responses(422))
 def get_defaults(task: str, phase: Phase, method: str, preset: str) -> dict[str, Any]:
     """Return the whole config that a launch would use with seed 0 and no overrides."""
-    raise NotBuilt
+    return config_to_dict(make_config(task, phase, method, 0, preset))
+
+
+def _task(spec: TaskSpec) -> Task:
+    return Task(
+        name=spec.name,
+        goal_text=spec.goal_text,
+        obs_size=spec.obs_size,
+        goal_size=spec.goal_size,
+        robot_action_size=spec.robot_action_size,
+        object_action_size=spec.object_action_size,
+        episode_length=spec.episode_length,
+        success_distance=spec.success_distance,
+        picture_url=f"/api/tasks/{spec.name}/picture",
+    )

@@ -4,19 +4,49 @@ from __future__ import annotations
 
 from fastapi import APIRouter
 
-from backend.api.errors import NotBuilt, problem_responses
-from backend.api.schemas import Launch, LaunchPlan, LaunchResult
+from backend.api.answers import run_summary
+from backend.api.dependencies import Store
+from backend.api.errors import problem_responses
+from backend.api.schemas import Launch, LaunchPlan, LaunchResult, PlannedRun
+from backend.store import launches
+from backend.store.runs import get_runs
+from sldr_core.config import config_to_dict
 
 router = APIRouter(prefix="/api/launches", tags=["launches"])
 
 
-@router.post("/plan", responses=problem_responses(422))
-def plan_launch(launch: Launch) -> LaunchPlan:
+@router.post("/plan", responses=problem_responses(403, 422))
+def plan_launch(launch: Launch, store: Store) -> LaunchPlan:
     """Tell what a launch would queue and which existing runs it would share; queue nothing."""
-    raise NotBuilt
+    planned_runs = launches.plan_launch(store, _order(launch))
+    return LaunchPlan(
+        runs=[
+            PlannedRun(
+                task=planned.task,
+                phase=planned.phase,
+                method=planned.method,
+                seed=planned.seed,
+                reused_run_id=planned.reused_run_id,
+                config=config_to_dict(planned.config),
+            )
+            for planned in planned_runs
+        ]
+    )
 
 
-@router.post("", status_code=201, responses=problem_responses(422))
-def create_launch(launch: Launch) -> LaunchResult:
+@router.post("", status_code=201, responses=problem_responses(403, 422))
+def create_launch(launch: Launch, store: Store) -> LaunchResult:
     """Queue a launch's runs, the locomotion run they need first."""
-    raise NotBuilt
+    run_ids = launches.launch(store, _order(launch))
+    return LaunchResult(runs=[run_summary(row) for row in get_runs(store, run_ids)])
+
+
+def _order(launch: Launch) -> launches.LaunchOrder:
+    return launches.LaunchOrder(
+        task=launch.task,
+        phase=launch.phase,
+        method=launch.method,
+        seeds=launch.seeds,
+        preset=launch.preset,
+        overrides=launch.overrides,
+    )

@@ -1,27 +1,117 @@
-"""The stored files of a run."""
+"""What a run wrote: its log and its stored files."""
 
 from __future__ import annotations
 
-from fastapi import APIRouter
+import re
+from pathlib import Path
+from typing import Annotated
+from urllib.parse import quote
+
+from fastapi import APIRouter, Header, Query
 from fastapi.responses import FileResponse
 
-from backend.api.errors import NotBuilt, problem_responses
-from backend.api.schemas import RunFiles
+from backend.api.dependencies import ServiceSettings, Store
+from backend.api.errors import ApiError, problem_responses
+from backend.api.routes.runs import LARGEST_CURSOR
+from backend.api.schemas import LogTail, RunFile, RunFiles
+from backend.store import files, runs
 
-router = APIRouter(prefix="/api/runs/{run_id}/files", tags=["runs"])
+LOG_PIECE = 64 * 1024
+"""Most of a log that one answer holds [bytes]."""
+
+router = APIRouter(prefix="/api/runs/{run_id}", tags=["runs"])
 
 
-@router.get("", responses=problem_responses(404, 422))
-def list_run_files(run_id: str) -> RunFiles:
+@router.get("/log", responses=problem_responses(404, 422))
+def get_run_log(
+    run_id: str,
+    store: Store,
+    settings: ServiceSettings,
+    after: Annotated[
+        int | None,
+        Query(ge=0, le=LARGEST_CURSOR, description="`offset` of the answer before; left out: the end of the log."),
+    ] = None,
+) -> LogTail:
+    """Return the end of a run's log, or what was written after an offset."""
+    runs.get_run(store, run_id)
+    return read_log(settings.run_directory(run_id) / "log.txt", after)
+
+
+@router.get("/files", responses=problem_responses(404, 422))
+def list_run_files(run_id: str, store: Store) -> RunFiles:
     """List a run's stored files."""
-    raise NotBuilt
+    runs.get_run(store, run_id)
+    return RunFiles(
+        files=[
+            RunFile(
+                name=row.name,
+                kind=row.kind,
+                size=row.size,
+                sha256=row.sha256,
+                created_at=row.created_at,
+                url=f"/api/runs/{run_id}/files/{quote(row.name, safe='')}",
+            )
+            for row in files.list_files(store, run_id)
+        ]
+    )
 
 
 @router.get(
-    "/{name}",
+    "/files/{name}",
     response_class=FileResponse,
     responses={200: {"content": {"application/octet-stream": {}}}} | problem_responses(404, 416, 422),
 )
-def download_run_file(run_id: str, name: str) -> FileResponse:
+def download_run_file(
+    run_id: str,
+    name: str,
+    store: Store,
+    settings: ServiceSettings,
+    byte_range: Annotated[str | None, Header(alias="Range", include_in_schema=False)] = None,
+) -> FileResponse:
     """Send one stored file, or the range of it that is asked for."""
-    raise NotBuilt
+    runs.get_run(store, run_id)
+    row = files.find_file(store, run_id, name)
+    path = (settings.home / row.path).resolve()
+    if not path.is_relative_to(settings.home.resolve()) or not path.is_file():
+        raise ApiError(404, f"File {name} of run {run_id} is recorded but no longer on the disk.")
+    if byte_range is not None:
+        _check_range(byte_range, path)
+    return FileResponse(path, media_type="application/octet-stream", filename=name)
+
+
+def read_log(path: Path, after: int | None) -> LogTail:
+    """Return a piece of a log that may still be growing, cut between characters."""
+    if not path.is_file():
+        return LogTail(text="", offset=0)
+    with path.open("rb") as file:
+        size = file.seek(0, 2)
+        # An offset beyond the end is of a log that was written anew: begin again at its end.
+        start = max(0, size - LOG_PIECE) if after is None or after > size else after
+        file.seek(start)
+        piece = file.read(LOG_PIECE)
+    piece = piece[: _whole_characters(piece)]
+    return LogTail(text=piece.decode(errors="replace"), offset=start + len(piece))
+
+
+def _whole_characters(piece: bytes) -> int:
+    """Return how many bytes of `piece` are left without a UTF-8 character cut off at its end."""
+    for back in range(1, min(4, len(piece)) + 1):
+        byte = piece[-back]
+        if byte < 0x80:
+            break
+        if byte >= 0xC0:
+            length = 2 if byte < 0xE0 else 3 if byte < 0xF0 else 4
+            return len(piece) - back if back < length else len(piece)
+    return len(piece)
+
+
+def _check_range(byte_range: str, path: Path) -> None:
+    """Refuse in our own words what the server's file answers would refuse in theirs."""
+    size = path.stat().st_size
+    parts = re.fullmatch(r"bytes=(\d*)-(\d*)", byte_range.strip())
+    if parts is None or parts.groups() == ("", ""):
+        raise ApiError(416, f"Range '{byte_range}' cannot be answered; ask for one, as in bytes=0-1023.", "Range")
+    first, last = parts.groups()
+    outside = int(first) >= size or (last and int(last) < int(first)) if first else int(last) == 0
+    if outside:
+        raise ApiError(416, f"Range '{byte_range}' lies outside the file of {size} bytes.", "Range")

@@ -1,66 +1,79 @@
-"""Runs: the table, one run, its curves and its log."""
+"""Runs: the table, one run, its history and its curves."""
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from typing import Annotated
 
 from fastapi import APIRouter, Query
 
-from backend.api.errors import NotBuilt, problem_responses
-from backend.api.schemas import LogTail, MetricBatch, RunDetail, RunEvents, RunPage
+from backend.api.answers import run_detail, run_summary
+from backend.api.dependencies import Store
+from backend.api.errors import problem_responses
+from backend.api.schemas import MetricBatch, RunDetail, RunEvent, RunEvents, RunPage
+from backend.store import files, metrics, runs
 from backend.store.states import RunState
 from sldr_core.config import Phase
 
 LARGEST_PAGE = 200
 """Rows in one answer at most."""
 
+LARGEST_CURSOR = 2**53 - 1
+"""Cursors are numbers that JavaScript holds exactly."""
+
 router = APIRouter(prefix="/api/runs", tags=["runs"])
 
 
 @router.get("", responses=problem_responses(422))
 def list_runs(
-    state: Annotated[list[RunState] | None, Query(description="Only runs in one of these states.")] = None,
+    store: Store,
+    state: RunState | None = None,
     task: str | None = None,
     method: str | None = None,
     phase: Phase | None = None,
-    search: Annotated[str | None, Query(max_length=200, description="Part of an id, task or method.")] = None,
+    search: Annotated[
+        str | None, Query(max_length=200, description="Words that id, task, method, phase, preset or state hold.")
+    ] = None,
     limit: Annotated[int, Query(ge=1, le=LARGEST_PAGE)] = 50,
-    cursor: Annotated[str | None, Query(description="`next_cursor` of the page before.")] = None,
+    cursor: Annotated[str | None, Query(max_length=15, description="`next_cursor` of the page before.")] = None,
 ) -> RunPage:
     """List runs, newest first, one page at a time."""
-    raise NotBuilt
+    wanted = runs.RunFilter(state=state, task=task, method=method, phase=phase, search=search)
+    found = runs.list_runs(store, wanted, limit, cursor)
+    return RunPage(runs=[run_summary(row) for row in found.rows], next_cursor=found.next_cursor, total=found.total)
 
 
 @router.get("/{run_id}", responses=problem_responses(404, 422))
-def get_run(run_id: str) -> RunDetail:
+def get_run(run_id: str, store: Store) -> RunDetail:
     """Return everything about one run but its curves and logs."""
-    raise NotBuilt
+    return run_detail(runs.get_run(store, run_id), files.list_files(store, run_id))
 
 
-@router.post("/{run_id}/cancel", responses=problem_responses(404, 409, 422))
-def cancel_run(run_id: str) -> RunDetail:
+@router.post("/{run_id}/cancel", responses=problem_responses(403, 404, 409, 422))
+def cancel_run(run_id: str, store: Store) -> RunDetail:
     """End a run for good: at once if it waits, within seconds if it trains."""
-    raise NotBuilt
+    runs.request_cancel(store, run_id)
+    return get_run(run_id, store)
 
 
 @router.get("/{run_id}/metrics", responses=problem_responses(404, 422))
 def get_run_metrics(
-    run_id: str, after: Annotated[int, Query(ge=0, description="`cursor` of the answer before.")] = 0
-) -> MetricBatch:
-    """Return the points of a run after a cursor."""
-    raise NotBuilt
-
-
-@router.get("/{run_id}/log", responses=problem_responses(404, 422))
-def get_run_log(
     run_id: str,
-    after: Annotated[int | None, Query(ge=0, description="`offset` of the answer before; left out: the end.")] = None,
-) -> LogTail:
-    """Return the end of a run's log, or what was written after an offset."""
-    raise NotBuilt
+    store: Store,
+    after: Annotated[int, Query(ge=0, le=LARGEST_CURSOR, description="`cursor` of the answer before.")] = 0,
+) -> MetricBatch:
+    """Return the points of a run after a cursor, oldest first; ask again until there are none."""
+    runs.get_run(store, run_id)
+    return MetricBatch(**asdict(metrics.read_metrics(store, run_id, after)))
 
 
 @router.get("/{run_id}/events", responses=problem_responses(404, 422))
-def list_run_events(run_id: str) -> RunEvents:
+def list_run_events(run_id: str, store: Store) -> RunEvents:
     """Return a run's history, oldest first."""
-    raise NotBuilt
+    rows = runs.list_events(store, run_id)
+    return RunEvents(
+        events=[
+            RunEvent(at=row.at, event=row.event, state=row.state, attempt=row.attempt, detail=row.detail)
+            for row in rows
+        ]
+    )

@@ -4,25 +4,48 @@ from __future__ import annotations
 
 from fastapi import APIRouter
 
-from backend.api.errors import NotBuilt, problem_responses
+from backend.api.answers import has_policy
+from backend.api.dependencies import Store, Tokens
+from backend.api.errors import ApiError, problem_responses
 from backend.api.schemas import ViewerRequest, ViewerSession
+from backend.api.tokens import ViewerTokens
+from backend.store import viewer_sessions
+from backend.store.files import list_files
+from backend.store.runs import get_run
 
 router = APIRouter(prefix="/api/viewer-sessions", tags=["viewer sessions"])
 
 
-@router.post("", status_code=201, responses=problem_responses(404, 409, 422))
-def create_viewer_session(request: ViewerRequest) -> ViewerSession:
+@router.post("", status_code=201, responses=problem_responses(403, 404, 409, 422))
+def create_viewer_session(request: ViewerRequest, store: Store, tokens: Tokens) -> ViewerSession:
     """Ask the viewer host to show the newest policy of a run."""
-    raise NotBuilt
+    run = get_run(store, request.run_id)
+    if not has_policy(list_files(store, run.id)):
+        raise ApiError(409, f"Run {run.id} has no policy to watch yet; wait for its first test.", "run_id")
+    if not viewer_sessions.is_host_alive(store):
+        raise ApiError(503, "The 3D viewer is not running; start it with 'sldr viewer', or wait if it just starts.")
+    return _answer(viewer_sessions.request_session(store, run.id), tokens)
 
 
 @router.get("/{session_id}", responses=problem_responses(404, 422))
-def get_viewer_session(session_id: str) -> ViewerSession:
+def get_viewer_session(session_id: str, store: Store, tokens: Tokens) -> ViewerSession:
     """Return a session; once it is ready it has the url to open."""
-    raise NotBuilt
+    return _answer(viewer_sessions.get_session(store, session_id), tokens)
 
 
-@router.delete("/{session_id}", status_code=204, responses=problem_responses(404, 422))
-def end_viewer_session(session_id: str) -> None:
+@router.delete("/{session_id}", status_code=204, responses=problem_responses(403, 404, 422))
+def end_viewer_session(session_id: str, store: Store) -> None:
     """End a session and free what it holds."""
-    raise NotBuilt
+    viewer_sessions.get_session(store, session_id)
+    viewer_sessions.mark_ended(store, session_id, message="It was closed.")
+
+
+def _answer(session: viewer_sessions.Session, tokens: ViewerTokens) -> ViewerSession:
+    is_ready = session.state == "ready"
+    return ViewerSession(
+        id=session.id,
+        run_id=session.run_id,
+        state=session.state,
+        url=f"/viewer/{tokens.sign(session.id, session.created_at)}/" if is_ready else None,
+        message=session.message,
+    )

@@ -1,0 +1,51 @@
+"""What routes are handed: the store, the settings and the tokens of the application they belong to."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated
+
+import httpx
+from fastapi import Depends
+from starlette.requests import HTTPConnection
+
+from backend.api.tokens import ViewerTokens
+from backend.store.database import Database
+from backend.store.settings import Settings
+
+
+@dataclass(frozen=True)
+class Service:
+    """Hold what lives as long as the application."""
+
+    settings: Settings
+    database: Database
+    tokens: ViewerTokens
+    viser: httpx.Client
+    """Fetches pages from the 3D servers on this machine."""
+
+
+def get_service(connection: HTTPConnection) -> Service:
+    """Return the service of the application that answers."""
+    return connection.app.state.service
+
+
+def get_database(connection: HTTPConnection) -> Database:
+    """Return the store."""
+    return get_service(connection).database
+
+
+def get_settings(connection: HTTPConnection) -> Settings:
+    """Return the settings."""
+    return get_service(connection).settings
+
+
+def get_tokens(connection: HTTPConnection) -> ViewerTokens:
+    """Return the signer of viewer tokens."""
+    return get_service(connection).tokens
+
+
+ServiceParts = Annotated[Service, Depends(get_service)]
+Store = Annotated[Database, Depends(get_database)]
+ServiceSettings = Annotated[Settings, Depends(get_settings)]
+Tokens = Annotated[ViewerTokens, Depends(get_tokens)]

@@ -1,0 +1,96 @@
+"""What a person sees of a training in the terminal: a recorder that shows what it passes on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn
+
+from sldr_core.config import TrainConfig
+from sldr_core.records import Step
+from sldr_core.training.recorder import Recorder, StopReason
+
+
+class ShownProgress:
+    """Draw a training's progress: a bar in a terminal, elsewhere one line per test."""
+
+    def __init__(self, config: TrainConfig, console: Console) -> None:
+        self._epochs = config.loop.epochs
+        self._console = console
+        self._newest: dict[str, float] = {}
+        self._bar = Progress(
+            TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), console=console, transient=False
+        )
+        self._row = self._bar.add_task("starting", total=1.0)
+
+    def __enter__(self) -> ShownProgress:
+        """Begin to draw."""
+        if self._console.is_terminal:
+            self._bar.start()
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        """Leave the last state on the screen."""
+        if self._console.is_terminal:
+            self._bar.stop()
+
+    def show(self, step: Step, metrics: Mapping[str, float]) -> None:
+        """Draw the newest numbers."""
+        self._newest.update(metrics)
+        line = describe(step, self._epochs, self._newest)
+        if self._console.is_terminal:
+            self._bar.update(self._row, description=line, completed=self._newest.get("progress/fraction", 0.0))
+        elif "test/success_rate" in metrics:
+            self._console.print(line, highlight=False, soft_wrap=True)
+
+
+class ShownRecorder:
+    """Pass everything on to another recorder and show the numbers on the way."""
+
+    def __init__(self, recorder: Recorder, progress: ShownProgress) -> None:
+        self._recorder = recorder
+        self._progress = progress
+
+    @property
+    def directory(self) -> Path:
+        """The run's own directory."""
+        return self._recorder.directory
+
+    def log(self, step: Step, metrics: Mapping[str, float]) -> None:
+        """Keep and show the numbers."""
+        self._recorder.log(step, metrics)
+        self._progress.show(step, metrics)
+
+    def save_file(self, name: str, kind: str, write: Callable[[Path], None]) -> Path:
+        """Keep a file."""
+        return self._recorder.save_file(name, kind, write)
+
+    def stop_requested(self) -> StopReason | None:
+        """Tell whether the training should end now."""
+        return self._recorder.stop_requested()
+
+
+def describe(step: Step, epochs: int, metrics: Mapping[str, float]) -> str:
+    """Return epoch, success, speed and time left as one line; what is not known yet is left out."""
+    parts = [f"epoch {step.epoch}/{epochs}"]
+    if "test/success_rate" in metrics:
+        best = f" (best {metrics['test/best_success_rate']:.0%})" if "test/best_success_rate" in metrics else ""
+        parts.append(f"success {metrics['test/success_rate']:.0%}{best}")
+    if "speed/env_steps_per_s" in metrics:
+        parts.append(f"{metrics['speed/env_steps_per_s']:,.0f} steps/s")
+    if "speed/updates_per_s" in metrics:
+        parts.append(f"{metrics['speed/updates_per_s']:,.0f} updates/s")
+    if "progress/seconds_left" in metrics:
+        parts.append(f"{duration(metrics['progress/seconds_left'])} left")
+    return ", ".join(parts)
+
+
+def duration(seconds: float) -> str:
+    """Return a time span as a person says it, in its two largest units."""
+    whole = max(0, round(seconds))
+    hours, minutes = divmod(whole // 60, 60)
+    if hours:
+        return f"{hours} h {minutes} min"
+    return f"{minutes} min {whole % 60} s" if minutes else f"{whole} s"

@@ -1,0 +1,127 @@
+"""`sldr serve`: the page, a worker and the 3D viewer, as child processes."""
+
+from __future__ import annotations
+
+import os
+import signal
+import socket
+import sys
+import time
+import urllib.error
+import urllib.request
+from collections.abc import Sequence
+
+import tyro
+
+from backend.store.settings import load_settings
+from sldr_core.errors import InvalidConfig, SldrError
+from worker.cli.children import Child
+
+LOOK_INTERVAL_S = 0.2
+"""How often the children are looked at [s]."""
+
+END_S = 30.0
+"""How long children may take to checkpoint and end [s]."""
+
+ANSWER_S = 1.0
+"""How long the API may take to say that it is well [s]."""
+
+MOST_DEATHS = 5
+"""The API may die this often before it ever answers; then something is wrong that a restart does not mend."""
+
+
+class CannotServe(SldrError):
+    """Report what keeps the service from starting."""
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Run the command."""
+    return tyro.cli(serve, prog="sldr serve", args=list(arguments))
+
+
+def serve(host: str = "127.0.0.1", port: int = 8000, workers: int = 1) -> int:
+    """Serve the page in the browser, with a worker and the 3D viewer, until told to end.
+
+    Args:
+        host: Address to listen on. There is no login: open others to your own network only.
+        port: Port to listen on.
+        workers: Runs trained at the same time on this machine (0: none).
+    """
+    if workers < 0:
+        raise InvalidConfig({"workers": f"it must be 0 or more, got {workers}"})
+    check_port(host, port)
+    settings = load_settings()
+    environment = {**os.environ, **settings.as_environment()}
+    commands = {
+        "API": ["backend.api", "--host", host, "--port", str(port)],
+        "worker": ["worker", "--slots", str(workers)],
+        "viewer": ["worker.viewer"],
+    }
+    if not workers:
+        del commands["worker"]
+    children = {name: Child(name, [sys.executable, "-m", *command], environment) for name, command in commands.items()}
+    return keep(children, _address(host, port), f"Data: {settings.home}. Ctrl-C ends it.")
+
+
+def keep(children: dict[str, Child], address: str, note: str) -> int:
+    """Keep the children alive until SIGINT or SIGTERM, then end them all; say when the API answers."""
+    ended_by: list[int] = []
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda number, frame: ended_by.append(number))
+    answered = False
+    try:
+        while not ended_by:
+            for child in children.values():
+                child.keep_alive(_tell)
+            if not answered and (answered := _answers(address)):
+                print(f"SLDR is at {address}  {note}", flush=True)
+            if not answered and children["API"].deaths_in_youth >= MOST_DEATHS:
+                raise CannotServe(f"The API ended {MOST_DEATHS} times before it answered; its last words are above.")
+            time.sleep(LOOK_INTERVAL_S)
+    finally:
+        for child in children.values():
+            child.ask_to_end()
+        until = time.monotonic() + END_S
+        for child in children.values():
+            child.wait(until)
+    return 0
+
+
+def check_port(host: str, port: int) -> None:
+    """Raise a sentence if nobody can listen there."""
+    if not 1 <= port <= 65535:
+        raise InvalidConfig({"port": f"it must be between 1 and 65535, got {port}"})
+    try:
+        found = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)
+    except socket.gaierror as error:
+        raise CannotServe(f"'{host}' is no address of this machine; use 127.0.0.1.") from error
+    family, kind, protocol, _, address = found[0]
+    with socket.socket(family, kind, protocol) as probe:
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            probe.bind(address)
+            probe.listen()
+        except OSError as error:
+            raise CannotServe(
+                f"Cannot listen on {host} port {port} ({error.strerror}); "
+                f"end what uses it, or choose another with --port."
+            ) from error
+
+
+def _address(host: str, port: int) -> str:
+    """Return where a browser on this machine finds the page."""
+    shown = {"0.0.0.0": "127.0.0.1", "::": "[::1]", "": "127.0.0.1"}.get(host, f"[{host}]" if ":" in host else host)
+    return f"http://{shown}:{port}"
+
+
+def _answers(address: str) -> bool:
+    opener = urllib.request.build_opener(urllib.request.ProxyHandler({}))
+    try:
+        with opener.open(f"{address}/healthz", timeout=ANSWER_S):
+            return True
+    except (urllib.error.URLError, OSError):
+        return False
+
+
+def _tell(sentence: str) -> None:
+    print(f"sldr: {sentence}", file=sys.stderr, flush=True)
