@@ -87,11 +87,12 @@ class DdpgAgent:
             metrics = self._update_critics(features, batch.action, rewards, next_features)
             return {**metrics, **self._update_actor(features)}
 
+    @torch.no_grad()
     def sync_targets(self) -> None:
         """Move the target networks towards the online ones by the target rate."""
         for online, target in ((self.actor, self._target_actor), (self.critics, self._target_critics)):
-            pairs = list(target.parameters()), list(online.parameters())
-            torch._foreach_lerp_(*pairs, self._config.target_rate)  # pyright: ignore[reportPrivateUsage]
+            for target_weight, online_weight in zip(target.parameters(), online.parameters(), strict=True):
+                target_weight.lerp_(online_weight, self._config.target_rate)
 
     def state_dict(self) -> dict[str, Any]:
         """Return all that learning goes on from."""

@@ -118,7 +118,11 @@ class RobotObserver:
         self._dt = SUBSTEPS * model.opt.timestep
 
     def observe(self) -> Array:
-        """Return grip 3, object 3, object minus grip 3, fingers 2, Euler 3, relative velocity 3, spin 3, grip velocity 3, finger velocity 2."""
+        """Return observations `[N, 25]`.
+
+        Grip position 3, object position 3, their difference 3, fingers 2, the object's Euler angles 3, its velocity
+        relative to the grip 3, its spin 3, the grip's velocity 3, the fingers' velocities 2.
+        """
         linear, angular = self._object.velocity()
         grip_velocity = self._grip.velocity()[0] * self._dt
         return np.concatenate(

@@ -35,7 +35,10 @@ def robot_features(obs: Tensor, goal: Tensor) -> Tensor:
 
 
 def object_features(state: Tensor, goal: Tensor) -> Tensor:
-    """Return what the object sees (paper §5): position, the way to the goal, rotation, velocity relative to it, spin, goal."""
+    """Return what the object sees (paper §5).
+
+    Position, the way to the goal, rotation, velocity relative to the goal, spin, and the goal itself.
+    """
     position, euler, linear, angular = state.split(3, dim=-1)
     return torch.cat([position, goal - position, euler, -linear, angular, goal], dim=-1)
 

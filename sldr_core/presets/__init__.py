@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import copy
-from typing import Any
+from typing import Any, cast
 
 from pydantic import ConfigDict
 from pydantic.dataclasses import dataclass
@@ -178,6 +178,6 @@ def _merge(settings: Settings, changes: Settings, path: str = "") -> None:
         if isinstance(settings.get(key), dict):
             if not isinstance(value, dict):
                 raise InvalidConfig({f"{path}{key}": f"expected a group of settings, got {value!r}"})
-            _merge(settings[key], value, f"{path}{key}.")
+            _merge(settings[key], cast(Settings, value), f"{path}{key}.")
         else:
             settings[key] = copy.deepcopy(value)

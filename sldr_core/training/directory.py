@@ -76,7 +76,11 @@ def _drop_from(path: Path, cycle: int) -> None:
     if not path.exists():
         return
     kept = [line for line in path.read_text().splitlines(keepends=True) if _cycle_of(line) < cycle]
-    write_atomically(path, lambda temporary: temporary.write_text("".join(kept)) and None)
+
+    def write(temporary: Path) -> None:
+        temporary.write_text("".join(kept))
+
+    write_atomically(path, write)
 
 
 def _cycle_of(line: str) -> float:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sldr_core.config import Phase, TaskSpec
+from sldr_core.errors import BadFile
 
 SUBSTEPS = 20
 """Physics steps of 0.002 s in one control step."""
@@ -75,8 +76,8 @@ def settle_fetch(task: TaskSpec) -> FetchStart:
         data.joint(f"robot0:slide{axis}").qpos[:] = value
     data.joint("object0:joint").qpos[:] = (*task.start_object, 1.0, 0.0, 0.0, 0.0)
     mujoco.mj_forward(model, data)
-    target = np.asarray(_GRIPPER_TARGET) + (0.0, 0.0, task.gripper_extra_height)
-    data.mocap_pos[0] = target + data.site("robot0:grip").xpos
+    data.mocap_pos[0] = data.site("robot0:grip").xpos + _GRIPPER_TARGET
+    data.mocap_pos[0, 2] += task.gripper_extra_height
     data.mocap_quat[0] = _GRIPPER_QUAT
     mujoco.mj_step(model, data, nstep=SETTLING_STEPS * SUBSTEPS)
     return FetchStart(
@@ -91,7 +92,8 @@ def settle_fetch(task: TaskSpec) -> FetchStart:
 def _model_path(task: TaskSpec) -> Path:
     # Found without being imported: importing it costs a second and prints warnings about other environments.
     package = find_spec("gymnasium_robotics")
-    assert package is not None and package.submodule_search_locations is not None
+    if package is None or package.submodule_search_locations is None:
+        raise BadFile("The package gymnasium-robotics, which ships the scenes, is not installed.")
     return Path(package.submodule_search_locations[0]) / "envs" / "assets" / task.model_file
 
 
