@@ -1,0 +1,93 @@
+"""Draw a scene with MuJoCo's own renderer. Needs a process of its own that was started with MUJOCO_GL=egl."""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+from sldr_core.config import find_task
+from sldr_core.envs import make_envs
+from sldr_core.errors import SldrError
+from worker.viewer.camera import Camera, find_camera
+from worker.viewer.dress import GOAL_SITE, dress
+
+PICTURE_SEED = 3
+"""A start in which gripper, object and goal stand well apart."""
+
+OVERSAMPLING = 2
+"""Pictures are drawn this many times larger, then scaled down: smooth edges."""
+
+MIN_CONTRAST = 4.0
+"""A frame whose brightness varies less than this was not drawn, of 255."""
+
+
+class EmptyPicture(SldrError):
+    """Report that the renderer returned a frame with nothing on it."""
+
+
+def draw_task(task: str, width: int, height: int) -> Image.Image:
+    """Draw the start of an episode of a task, with its goal.
+
+    Raises:
+        UnknownName: no such task.
+        EmptyPicture: nothing was drawn.
+    """
+    spec = find_task(task)
+    envs = make_envs(task, seed=PICTURE_SEED)
+    goal = envs.observe().goal[0]
+    size = (OVERSAMPLING * width, OVERSAMPLING * height)
+    frame = draw(envs.model, envs.qpos[0], goal[:3], find_camera(spec, "manipulation"), *size)
+    return Image.fromarray(frame).resize((width, height), Image.Resampling.LANCZOS)
+
+
+def draw(
+    model: mujoco.MjModel,
+    qpos: NDArray[np.floating],
+    goal: NDArray[np.floating],
+    camera: Camera,
+    width: int,
+    height: int,
+) -> NDArray[np.uint8]:
+    """Draw one moment of a scene as `[height, width, 3]`.
+
+    Args:
+        qpos: joint positions, `[nq]`.
+        goal: where the goal marker stands [m], `[3]`.
+
+    Raises:
+        EmptyPicture: nothing was drawn.
+    """
+    dressed = dress(model)
+    dressed.vis.global_.offwidth, dressed.vis.global_.offheight = width, height
+    dressed.vis.global_.fovy = camera.field_of_view
+    data = mujoco.MjData(dressed)
+    data.qpos[:] = qpos
+    _place_goal(dressed, data, goal)
+    with mujoco.Renderer(dressed, height=height, width=width) as renderer:
+        renderer.update_scene(data, camera.as_mujoco())
+        frame = renderer.render().copy()
+    check_frame(frame)
+    return frame
+
+
+def check_frame(frame: NDArray[np.uint8]) -> None:
+    """Refuse a frame of one colour: that is what a renderer without a working context returns.
+
+    Raises:
+        EmptyPicture: it is of one colour.
+    """
+    if float(frame.std()) < MIN_CONTRAST:
+        raise EmptyPicture(
+            "The renderer returned a frame of one colour; check the machine's EGL driver (libgl1-mesa-dri)."
+        )
+
+
+def _place_goal(model: mujoco.MjModel, data: mujoco.MjData, goal: NDArray[np.floating]) -> None:
+    """Put the goal marker to `goal`; positions are forwarded, or the first frame would not show it."""
+    mujoco.mj_forward(model, data)
+    site = model.site(GOAL_SITE).id
+    body = int(model.site_bodyid[site])
+    model.site_pos[site] = data.xmat[body].reshape(3, 3).T @ (goal - data.xpos[body])
+    mujoco.mj_forward(model, data)

@@ -1,0 +1,54 @@
+"""The Viser page around a scene: bound to this machine, camera framed, soft light, nothing that calls outside."""
+
+from __future__ import annotations
+
+import numpy as np
+import viser
+
+from worker.viewer.camera import Camera
+from worker.viewer.dress import LAMP_DIRECTION
+
+HOST = "127.0.0.1"
+
+ROOM_LIGHT = 0.12
+"""Brightness of the surroundings."""
+
+SKY_LIGHT = 1.0
+"""Brightness of the light from above and below."""
+
+LAMP_LIGHT = 1.4
+"""Brightness of the lamp that casts shadows."""
+
+
+def open_page(camera: Camera, port: int = 0) -> viser.ViserServer:
+    """Start a Viser server on this machine alone; port 0 takes a free one.
+
+    The page is dark where its address says `?darkMode`.
+    """
+    server = viser.ViserServer(host=HOST, port=port, verbose=False)
+    _refuse_sharing(server)
+    server.gui.configure_theme(show_logo=False, show_share_button=False, control_width="small")
+    server.scene.set_up_direction("+z")
+    _add_lights(server)
+    server.initial_camera.position = camera.position
+    server.initial_camera.look_at = np.asarray(camera.look_at)
+    server.initial_camera.up = (0.0, 0.0, 1.0)
+    server.initial_camera.fov = float(np.radians(camera.field_of_view))
+    return server
+
+
+def _add_lights(server: viser.ViserServer) -> None:
+    """Light from all sides, and one lamp that casts soft shadows; weak enough that white keeps its shades."""
+    server.scene.configure_default_lights(enabled=False)
+    server.scene.configure_environment_map("studio", environment_intensity=ROOM_LIGHT)
+    server.scene.add_light_hemisphere(
+        "/lights/sky", intensity=SKY_LIGHT, sky_color=(255, 255, 255), ground_color=(150, 150, 160)
+    )
+    server.scene.add_light_directional(
+        "/lights/lamp", intensity=LAMP_LIGHT, cast_shadow=True, position=-4.0 * np.asarray(LAMP_DIRECTION)
+    )
+
+
+def _refuse_sharing(server: viser.ViserServer) -> None:
+    """Keep a page from opening Viser's tunnel through an outside host, which any client may ask for."""
+    server.request_share_url = lambda verbose=True: None
