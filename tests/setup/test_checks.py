@@ -1,0 +1,70 @@
+"""The script that runs every check: it goes on after a failure and names it at the end."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+CHECKS = Path(__file__).parents[2] / ".ci" / "checks.sh"
+TIMEOUT_S = 20
+
+
+@pytest.fixture
+def tree(tmp_path: Path) -> Path:
+    """Return a tree whose tools all succeed at once."""
+    (tmp_path / ".ci").mkdir()
+    shutil.copy(CHECKS, tmp_path / ".ci")
+    (tmp_path / ".venv" / "bin").mkdir(parents=True)
+    for name in ("ruff", "lint-imports", "pyright"):
+        set_result(tmp_path, name, 0)
+    return tmp_path
+
+
+def set_result(tree: Path, name: str, code: int) -> None:
+    tool = tree / ".venv" / "bin" / name
+    tool.write_text(f"#!/bin/bash\necho {name} ran\nexit {code}\n")
+    tool.chmod(0o755)
+
+
+def check(tree: Path, *parts: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        ["/bin/bash", tree / ".ci" / "checks.sh", *parts],
+        capture_output=True,
+        text=True,
+        timeout=TIMEOUT_S,
+        check=False,
+    )
+
+
+def test_success_is_silent_about_failures(tree: Path) -> None:
+    result = check(tree, "lint", "types")
+
+    assert result.returncode == 0
+    assert "FAILED" not in result.stdout
+    assert result.stderr == ""
+
+
+def test_every_failing_part_is_named_at_the_end(tree: Path) -> None:
+    set_result(tree, "lint-imports", 1)
+    set_result(tree, "pyright", 1)
+
+    result = check(tree, "lint", "imports", "types")
+
+    assert result.returncode == 1
+    assert result.stderr.startswith("Failed: imports types.")
+
+
+def test_a_failure_does_not_hide_what_comes_after(tree: Path) -> None:
+    set_result(tree, "ruff", 1)
+
+    assert "pyright ran" in check(tree, "lint", "types").stdout
+
+
+def test_an_unknown_part_is_answered_with_those_there_are(tree: Path) -> None:
+    result = check(tree, "typos")
+
+    assert result.returncode == 2
+    assert result.stderr.startswith("No check is called 'typos'. There are: lint format imports types ")
