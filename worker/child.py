@@ -1,0 +1,205 @@
+"""`python -m worker.child`: one attempt of one run, in a process of its own.
+
+The claim comes as the first line on standard input; what the supervisor wants of it comes as further lines.
+What is printed goes to the run's log.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import faulthandler
+import fcntl
+import logging
+import os
+import signal
+import sys
+import threading
+import time
+from collections.abc import Callable, Generator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import IO, Protocol
+
+from backend.store.claims import Claim, claim_from_json
+from backend.store.database import Database, open_database
+from backend.store.errors import StaleFence
+from backend.store.queue import Cancelled, Failed, HandedBack, Outcome, Paused, Succeeded, finish
+from backend.store.settings import Settings, load_settings
+from sldr_core.config import TrainConfig
+from sldr_core.errors import SldrError
+from worker.locomotion_files import find_locomotion_models
+from worker.recorder import StoreRecorder, WriteCurves
+from worker.words import STOP_WORDS, StopWord
+
+PR_SET_PDEATHSIG = 1
+"""Number of the Linux call that asks for a signal when the parent dies (prctl(2))."""
+LOCK_FILE = ".lock"
+LOCK_PATIENCE_S = 10.0
+"""How long an earlier attempt's process may take to let go of the run's directory [s]."""
+LOCK_RETRY_S = 10.0
+"""How long a run waits in the queue when it did not [s]."""
+EXIT_ORPHANED = 70
+EXIT_STALE = 71
+
+log = logging.getLogger(__name__)
+
+
+class TrainResult(Protocol):
+    """What a training tells at its end."""
+
+    @property
+    def stopped(self) -> StopWord | None:
+        """The request that ended it, or None if it came to its end."""
+        ...
+
+    @property
+    def test_success_rate(self) -> float | None:
+        """Success of the last test."""
+        ...
+
+    @property
+    def best_success_rate(self) -> float | None:
+        """Success of the best test, whose locomotion model is kept."""
+        ...
+
+
+Train = Callable[[TrainConfig, StoreRecorder, Sequence[Path]], TrainResult]
+"""A training: `sldr_core.training.train`, or a short one in tests."""
+
+
+class DirectoryBusy(Exception):
+    """Report that a process of an earlier attempt still writes the run's directory."""
+
+
+def main() -> int:
+    """Train for real."""
+    return run_child(_train)
+
+
+def run_child(train: Train, write_curves: WriteCurves | None = None) -> int:
+    """Read a claim, train, and report how it ended; return the exit status."""
+    _end_with_parent()
+    faulthandler.enable()
+    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(message)s", stream=sys.stdout)
+    claim = claim_from_json(sys.stdin.readline())
+    requests = StopRequests(sys.stdin)
+    settings = load_settings()
+    db = open_database(settings)
+    log.info("Attempt %d of run %s begins in process %d.", claim.attempt, claim.run_id, os.getpid())
+    try:
+        outcome = _attempt(db, settings, claim, requests, train, write_curves)
+        finish(db, claim, outcome)
+    except StaleFence as err:
+        log.error("%s", err)
+        return EXIT_STALE
+    log.info("Attempt %d has ended: %s", claim.attempt, outcome)
+    return 0
+
+
+class StopRequests:
+    """Listen to the supervisor, and end this process when the supervisor is gone."""
+
+    def __init__(self, lines: IO[str]) -> None:
+        self._lines = lines
+        self._newest: StopWord | None = None
+        threading.Thread(target=self._listen, name="requests", daemon=True).start()
+
+    def newest(self) -> StopWord | None:
+        """Return what was asked for last."""
+        return self._newest
+
+    def _listen(self) -> None:
+        for line in self._lines:
+            word = line.strip()
+            if word in STOP_WORDS:
+                self._newest = word
+            else:
+                log.warning("The supervisor said '%s', which means nothing here.", word)
+        os._exit(EXIT_ORPHANED)
+
+
+def _attempt(
+    db: Database,
+    settings: Settings,
+    claim: Claim,
+    requests: StopRequests,
+    train: Train,
+    write_curves: WriteCurves | None,
+) -> Outcome:
+    """Train, and turn whatever happens into an outcome; only a stale fence leaves as an error."""
+    try:
+        with _hold_directory(settings.run_directory(claim.run_id)):
+            models = find_locomotion_models(db, settings, claim)
+            with StoreRecorder(db, settings, claim, requests.newest, write_curves) as recorder:
+                result = train(claim.config, recorder, models)
+    except DirectoryBusy as err:
+        return HandedBack(str(err), LOCK_RETRY_S)
+    except StaleFence:
+        raise
+    except SldrError as err:
+        log.error("%s", err)
+        return Failed(str(err), retry=False)
+    except Exception as err:
+        log.exception("The training ended by an error that nobody expected.")
+        return Failed(_sentence(err), retry=True)
+    return _outcome_of(result, claim)
+
+
+def _outcome_of(result: TrainResult, claim: Claim) -> Outcome:
+    match result.stopped:
+        case "cancel":
+            return Cancelled()
+        case "pause":
+            return Paused()
+        case "shutdown":
+            return HandedBack("Its worker was asked to end; it goes on from its checkpoint.")
+        case None if claim.config.phase == "locomotion":
+            return Succeeded(result.best_success_rate)
+        case None:
+            return Succeeded(result.test_success_rate)
+
+
+def _sentence(err: Exception) -> str:
+    """Put an unexpected error into one sentence."""
+    lines = str(err).strip().splitlines()
+    what = f": {lines[0].rstrip('.')}" if lines else ""
+    return f"The training ended by an unexpected {type(err).__name__}{what}; the log says where."
+
+
+@contextmanager
+def _hold_directory(directory: Path) -> Generator[None]:
+    """Keep every other process from training in this directory; the lock ends with this process."""
+    directory.mkdir(parents=True, exist_ok=True)
+    give_up_at = time.monotonic() + LOCK_PATIENCE_S
+    with (directory / LOCK_FILE).open("w") as file:
+        while True:
+            try:
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                break
+            except BlockingIOError:
+                if time.monotonic() > give_up_at:
+                    raise DirectoryBusy("A process of an earlier attempt still writes its directory.") from None
+                time.sleep(0.1)
+        for leftover in directory.glob(".*.tmp"):
+            leftover.unlink()
+        yield
+
+
+def _end_with_parent() -> None:
+    """Let the system kill this process when the supervisor dies; the end of standard input is the second way."""
+    if sys.platform == "linux":
+        ctypes.CDLL(None, use_errno=True).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+
+
+def _train(config: TrainConfig, recorder: StoreRecorder, locomotion_models: Sequence[Path]) -> TrainResult:
+    from sldr_core.training import train  # Brings PyTorch and MuJoCo, which tests of this process do without.
+
+    return train(config, recorder, locomotion_models)
+
+
+if __name__ == "__main__":
+    exit_status = main()
+    logging.shutdown()
+    sys.stdout.flush()
+    # Taking PyTorch down in good order takes seconds in which the slot would stand idle.
+    os._exit(exit_status)

@@ -1,0 +1,82 @@
+"""Running attempts on this machine: one child process each, in a process group of its own."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Sequence
+from contextlib import suppress
+
+from backend.store.claims import Claim, claim_to_json
+from backend.store.settings import Settings
+
+CHILD_COMMAND = (sys.executable, "-m", "worker.child")
+LOG_FILE = "log.txt"
+
+
+class LocalChild:
+    """Hold the process of one attempt."""
+
+    def __init__(self, process: subprocess.Popen[str]) -> None:
+        self._process = process
+
+    @property
+    def pid(self) -> int:
+        """Its process id, which is also that of its group."""
+        return self._process.pid
+
+    def tell(self, message: str) -> None:
+        """Pass it one line; one that no longer listens is left alone."""
+        assert self._process.stdin is not None
+        with suppress(BrokenPipeError):
+            self._process.stdin.write(message + "\n")
+            self._process.stdin.flush()
+
+    def poll(self) -> int | None:
+        """Return its exit status (a negative signal number if it was killed), or None while it runs."""
+        return self._process.poll()
+
+    def kill(self) -> None:
+        """End it and everything that it started, at once."""
+        if self._process.poll() is None:
+            with suppress(ProcessLookupError):
+                os.killpg(self._process.pid, signal.SIGKILL)
+
+    def wait(self) -> int:
+        """Wait until it has ended and let go of it."""
+        status = self._process.wait()
+        assert self._process.stdin is not None
+        with suppress(BrokenPipeError):
+            self._process.stdin.close()
+        return status
+
+
+class LocalExecutor:
+    """Start attempts as child processes.
+
+    Start them from the main thread only: a child ends with the thread that started it.
+    """
+
+    def __init__(self, settings: Settings, command: Sequence[str] = CHILD_COMMAND) -> None:
+        self._settings = settings
+        self._command = list(command)
+
+    def start(self, claim: Claim) -> LocalChild:
+        """Start an attempt; what its process prints goes to the log in the run's directory."""
+        directory = self._settings.run_directory(claim.run_id)
+        directory.mkdir(parents=True, exist_ok=True)
+        with (directory / LOG_FILE).open("ab") as log:
+            process = subprocess.Popen(
+                self._command,
+                stdin=subprocess.PIPE,
+                stdout=log,
+                stderr=subprocess.STDOUT,
+                env={**os.environ, **self._settings.as_environment()},
+                process_group=0,
+                text=True,
+            )
+        child = LocalChild(process)
+        child.tell(claim_to_json(claim))
+        return child
