@@ -71,7 +71,7 @@ def render_all_pictures(home: Path) -> list[Path]:
 
 def main() -> int:
     """Draw one picture in this process, or with `--all-below` every missing one, each in its own."""
-    parser = argparse.ArgumentParser(prog="python -m worker.render", description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(prog="python -m worker.render", description="Draw a picture of a task off screen.")
     parser.add_argument("task", nargs="?", help=f"one of {', '.join(TASKS)}")
     parser.add_argument("file", nargs="?", type=Path, help="the PNG file to write")
     parser.add_argument("--width", type=int, default=PICTURE_SIZE[0])

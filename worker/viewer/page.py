@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
+import io
+
 import numpy as np
 import viser
 
@@ -19,13 +22,16 @@ SKY_LIGHT = 1.0
 LAMP_LIGHT = 1.4
 """Brightness of the lamp that casts shadows."""
 
+_LAMP_POSITION = (-4.0 * LAMP_DIRECTION[0], -4.0 * LAMP_DIRECTION[1], -4.0 * LAMP_DIRECTION[2])
+
 
 def open_page(camera: Camera, port: int = 0) -> viser.ViserServer:
     """Start a Viser server on this machine alone; port 0 takes a free one.
 
     The page is dark where its address says `?darkMode`.
     """
-    server = viser.ViserServer(host=HOST, port=port, verbose=False)
+    with contextlib.redirect_stdout(io.StringIO()):  # Viser prints a banner that nobody asked for.
+        server = viser.ViserServer(host=HOST, port=port, verbose=False)
     _refuse_sharing(server)
     server.gui.configure_theme(show_logo=False, show_share_button=False, control_width="small")
     server.scene.set_up_direction("+z")
@@ -44,9 +50,7 @@ def _add_lights(server: viser.ViserServer) -> None:
     server.scene.add_light_hemisphere(
         "/lights/sky", intensity=SKY_LIGHT, sky_color=(255, 255, 255), ground_color=(150, 150, 160)
     )
-    server.scene.add_light_directional(
-        "/lights/lamp", intensity=LAMP_LIGHT, cast_shadow=True, position=-4.0 * np.asarray(LAMP_DIRECTION)
-    )
+    server.scene.add_light_directional("/lights/lamp", intensity=LAMP_LIGHT, cast_shadow=True, position=_LAMP_POSITION)
 
 
 def _refuse_sharing(server: viser.ViserServer) -> None:

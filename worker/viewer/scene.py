@@ -18,7 +18,7 @@ from worker.viewer.shapes import geom_mesh
 REACHED_RGB = (40, 170, 80)
 """The goal's colour while the object is there."""
 
-_GOAL_RGB = tuple(round(255 * value) for value in GOAL_RGBA[:3])
+_GOAL_RGB = (round(255 * GOAL_RGBA[0]), round(255 * GOAL_RGBA[1]), round(255 * GOAL_RGBA[2]))
 
 
 @dataclass(frozen=True)

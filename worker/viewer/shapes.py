@@ -31,10 +31,11 @@ def geom_mesh(model: mujoco.MjModel, geom: int, opacity: float = 1.0) -> trimesh
     mesh = _mesh_asset(model, int(model.geom_dataid[geom])) if kind == _GEOM.mjGEOM_MESH else _primitive(model, geom)
     material = _material(model, geom, opacity)
     uv = None
-    if kind == _GEOM.mjGEOM_BOX and (texture := find_texture(model, geom)) is not None:
-        if model.tex_type[texture] == mujoco.mjtTexture.mjTEXTURE_CUBE:
-            uv = _box_uv(int(model.tex_width[texture]))
-            material.baseColorTexture = texture_image(model, texture)
+    texture = find_texture(model, geom)
+    is_cube_map = texture is not None and model.tex_type[texture] == mujoco.mjtTexture.mjTEXTURE_CUBE
+    if texture is not None and is_cube_map and kind == _GEOM.mjGEOM_BOX:
+        uv = _box_uv(int(model.tex_width[texture]))
+        material.baseColorTexture = texture_image(model, texture)
     mesh.visual = TextureVisuals(uv=uv if uv is not None else np.zeros((len(mesh.vertices), 2)), material=material)
     return mesh
 

@@ -46,7 +46,7 @@ def texture_image(model: mujoco.MjModel, texture: int) -> Image.Image:
     return Image.fromarray(np.ascontiguousarray(pixels[..., :3]), "RGB")
 
 
-def cube_map_coordinates(direction: NDArray[np.floating], face: int, width: int) -> NDArray[np.float64]:
+def cube_map_coordinates(direction: NDArray[np.float64], face: int, width: int) -> NDArray[np.float64]:
     """Return where directions out of a box's centre lie on the stacked picture, `[..., 2]`: column, row in [0, 1].
 
     Args:
@@ -61,7 +61,7 @@ def cube_map_coordinates(direction: NDArray[np.floating], face: int, width: int)
     return np.stack([column, (face + row) / CUBE_FACES], axis=-1)
 
 
-def box_faces(size: NDArray[np.floating]) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.float64]]:
+def box_faces(size: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.float64]]:
     """Return a box whose faces share no vertex: vertices `[24, 3]`, triangles `[12, 3]`, normals `[24, 3]`.
 
     Args:

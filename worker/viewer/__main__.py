@@ -1,0 +1,99 @@
+"""`python -m worker.viewer`: host 3D sessions; with `--policy FILE`, show one policy and nothing else."""
+
+from __future__ import annotations
+
+import argparse
+import logging
+import signal
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+from backend.store.database import open_database
+from backend.store.errors import StoreUnavailable
+from backend.store.settings import Settings, load_settings
+from sldr_core.errors import SldrError
+from worker.viewer.host import Host
+from worker.viewer.reports import Job
+
+POLL_S = 0.2
+"""Time between two looks into the store [s]."""
+
+STORE_RETRY_S = 2.0
+"""Time to wait after the store could not be used [s]."""
+
+log = logging.getLogger("sldr.viewer")
+
+
+def main() -> int:
+    """Host sessions until SIGTERM or Ctrl-C; a user's error is one sentence and exit code 2."""
+    parser = argparse.ArgumentParser(prog="python -m worker.viewer", description=__doc__)
+    parser.add_argument("--policy", type=Path, metavar="FILE", help="show this policy, without the service")
+    parser.add_argument("--port", type=int, default=0, help="port for --policy (0: a free one)")
+    options = parser.parse_args()
+    logging.basicConfig(stream=sys.stderr, level=logging.INFO, format="%(asctime)s %(name)s %(message)s")
+    try:
+        if options.policy is not None:
+            _show_one(options.policy, options.port)
+        else:
+            host_sessions(load_settings())
+    except SldrError as err:
+        print(err, file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        return 0
+    return 0
+
+
+def host_sessions(settings: Settings) -> None:
+    """Serve sessions until SIGTERM or SIGINT."""
+    stop = threading.Event()
+    for number in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(number, lambda *_: stop.set())
+    database = open_database(settings)
+    host = Host(database, settings, target=_serve_session)
+    host.begin()
+    pictures = _draw_pictures(settings.home)
+    try:
+        while not stop.is_set():
+            stop.wait(_round(host))
+    finally:
+        pictures.terminate()
+        host.close()
+        pictures.wait()
+        database.close()
+
+
+def _round(host: Host) -> float:
+    """Do one round, and return how long to wait for the next [s]."""
+    try:
+        host.tick()
+    except StoreUnavailable as err:
+        log.warning("%s Trying again.", err)
+        return STORE_RETRY_S
+    return POLL_S
+
+
+def _draw_pictures(home: Path) -> subprocess.Popen[bytes]:
+    """Draw the missing pictures of the tasks beside everything else; what goes wrong is on this process's stderr."""
+    return subprocess.Popen([sys.executable, "-m", "worker.render", "--all-below", str(home)])
+
+
+def _serve_session(job: Job, pipe: object) -> None:
+    """Import torch and MuJoCo in the session's process alone: the host stays small."""
+    from worker.viewer.session import serve_session
+
+    serve_session(job, pipe)  # pyright: ignore[reportArgumentType]
+
+
+def _show_one(policy: Path, port: int) -> None:
+    from worker.viewer.session import Session, watch
+
+    session = Session(policy, port)
+    print(f"{session.message} http://127.0.0.1:{session.port}/", flush=True)
+    watch(session)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,193 @@
+"""The viewer host: takes the 3D sessions that are asked for and serves each in a process of its own."""
+
+from __future__ import annotations
+
+import logging
+import multiprocessing
+import os
+import signal
+import socket
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from multiprocessing.connection import Connection
+from multiprocessing.context import SpawnProcess
+from pathlib import Path
+
+from backend.store import viewer_sessions
+from backend.store.database import Database
+from backend.store.settings import Settings
+from worker.viewer.reports import Broken, Job, Ready, Report, Watched
+
+POLICY_FILES = ("policy-newest.pt", "policy-best.pt")
+"""What of a run is shown, the first that there is."""
+
+ENDING_S = 3.0
+"""A session process that was asked to end and has not by then is killed [s]."""
+
+Target = Callable[[Job, Connection], None]
+"""What a session process runs."""
+
+log = logging.getLogger("sldr.viewer")
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Say how long and how many."""
+
+    sessions: int = 8
+    """Sessions at once on one host."""
+    idle_s: float = 60.0
+    """A session that somebody watched ends this long after the last one left [s]."""
+    unopened_s: float = 120.0
+    """A session that nobody opened ends after this [s]."""
+    beat_s: float = 5.0
+    """Time between two signs of life, of the host and of watched sessions [s]."""
+
+
+@dataclass
+class Served:
+    """Follow one session and its process."""
+
+    session_id: str
+    process: SpawnProcess
+    pipe: Connection
+    idle_since: float
+    """When the last client left, or when it was started [s, monotonic]."""
+    clients: int = 0
+    was_watched: bool = False
+    broken: str | None = None
+    """Why it cannot go on, if it said so."""
+
+
+@dataclass
+class Host:
+    """Serve sessions; `tick` does one round of everything."""
+
+    database: Database
+    settings: Settings
+    target: Target
+    limits: Limits = field(default_factory=Limits)
+    host_id: str = field(default_factory=lambda: f"{socket.gethostname()}-{os.getpid()}")
+    served: dict[str, Served] = field(default_factory=dict)
+    _beat_at: float = field(default=-1e9, init=False)
+
+    def begin(self) -> None:
+        """Announce the host, and end what an earlier one left open."""
+        viewer_sessions.beat_host(self.database, self.host_id, os.getpid())
+        message = "The 3D viewer was started again; open the view once more."
+        viewer_sessions.end_sessions_of_other_hosts(self.database, self.host_id, message)
+
+    def tick(self) -> None:
+        """Hear the sessions, end those that are over, start those that are asked for."""
+        now = time.monotonic()
+        for served in list(self.served.values()):
+            self._hear(served, now)
+            self._end_if_over(served, now)
+        open_sessions = viewer_sessions.list_open(self.database)
+        self._end_closed({session.id for session in open_sessions})
+        if any(session.host_id is None for session in open_sessions):
+            self._take_next(now)
+        if now - self._beat_at >= self.limits.beat_s:
+            self._beat(now)
+
+    def close(self) -> None:
+        """End every session and its process."""
+        for served in list(self.served.values()):
+            self._end(served, "The 3D viewer was stopped.")
+
+    def _take_next(self, now: float) -> None:
+        session = viewer_sessions.next_requested(self.database, self.host_id)
+        if session is None:
+            return
+        policy = self._find_policy(session.run_id)
+        if policy is None:
+            message = f"Run {session.run_id} has no policy to watch yet; wait for its first test."
+            viewer_sessions.mark_ended(self.database, session.id, failed=True, message=message)
+        elif not self._make_room():
+            message = f"All {self.limits.sessions} 3D views of this machine are being watched; close one and try again."
+            viewer_sessions.mark_ended(self.database, session.id, failed=True, message=message)
+        else:
+            self.served[session.id] = self._start(session.id, policy, now)
+
+    def _start(self, session_id: str, policy: Path, now: float) -> Served:
+        context = multiprocessing.get_context("spawn")
+        ours, theirs = context.Pipe()
+        job = Job(session_id, policy, os.getpid())
+        process = context.Process(target=self.target, args=(job, theirs), name=f"viewer-session-{session_id}")
+        process.start()
+        theirs.close()
+        log.info("session %s of %s started as process %s", session_id, policy.parent.name, process.pid)
+        return Served(session_id, process, ours, idle_since=now)
+
+    def _find_policy(self, run_id: str) -> Path | None:
+        paths = [self.settings.run_directory(run_id) / name for name in POLICY_FILES]
+        return next((path for path in paths if path.is_file()), None)
+
+    def _make_room(self) -> bool:
+        """End the session that nobody has watched for longest if there is no room, and tell whether there is now."""
+        if len(self.served) < self.limits.sessions:
+            return True
+        idle = [served for served in self.served.values() if served.clients == 0]
+        if not idle:
+            return False
+        self._end(min(idle, key=lambda served: served.idle_since), "It made room for a newer 3D view.")
+        return True
+
+    def _hear(self, served: Served, now: float) -> None:
+        try:
+            while served.pipe.poll():
+                self._take_report(served, served.pipe.recv(), now)
+        except (EOFError, ConnectionResetError):
+            # The process is gone or going; `_end_if_over` says why.
+            served.process.join(ENDING_S)
+
+    def _take_report(self, served: Served, report: Report, now: float) -> None:
+        match report:
+            case Ready(port, message):
+                viewer_sessions.mark_ready(self.database, served.session_id, port, message)
+            case Watched(clients):
+                if served.clients or clients:
+                    served.idle_since = now
+                served.clients = clients
+                served.was_watched = served.was_watched or clients > 0
+            case Broken(message):
+                served.broken = message
+
+    def _end_if_over(self, served: Served, now: float) -> None:
+        patience = self.limits.idle_s if served.was_watched else self.limits.unopened_s
+        if served.broken is not None:
+            self._end(served, served.broken, failed=True)
+        elif not served.process.is_alive():
+            self._end(served, f"The 3D view {_ending(served.process.exitcode)}; open it again.", failed=True)
+        elif served.clients == 0 and now - served.idle_since > patience:
+            self._end(served, f"Nobody watched for {patience:.0f} s.")
+
+    def _end_closed(self, open_ids: set[str]) -> None:
+        for session_id in [session_id for session_id in self.served if session_id not in open_ids]:
+            self._end(self.served[session_id], "It was closed.")
+
+    def _end(self, served: Served, message: str, failed: bool = False) -> None:
+        del self.served[served.session_id]
+        viewer_sessions.mark_ended(self.database, served.session_id, failed, message)
+        log.info("session %s ended: %s", served.session_id, message)
+        served.process.terminate()
+        served.process.join(ENDING_S)
+        if served.process.is_alive():
+            served.process.kill()
+            served.process.join()
+        served.process.close()
+        served.pipe.close()
+
+    def _beat(self, now: float) -> None:
+        self._beat_at = now
+        viewer_sessions.beat_host(self.database, self.host_id, os.getpid())
+        for served in self.served.values():
+            if served.clients:
+                viewer_sessions.touch(self.database, served.session_id)
+
+
+def _ending(exit_code: int | None) -> str:
+    if exit_code is not None and exit_code < 0:
+        return f"was ended by {signal.Signals(-exit_code).name}"
+    return f"ended with exit code {exit_code}"
