@@ -1,0 +1,59 @@
+/** Every address of the page, and what it shows. */
+import {
+  createRootRoute,
+  createRoute,
+  createRouter,
+  lazyRouteComponent,
+  parseSearchWith,
+  stringifySearchWith,
+} from '@tanstack/react-router';
+import { PageBroke, PageNotFound } from '@/app/failures';
+import { Shell } from '@/app/shell';
+import { readLaunchSearch } from '@/features/launch/search';
+import { readRunSearch } from '@/features/run/search';
+import { readRunsSearch } from '@/features/runs/search';
+
+const root = createRootRoute({ component: Shell });
+
+const runs = createRoute({
+  getParentRoute: () => root,
+  path: '/',
+  validateSearch: readRunsSearch,
+  component: lazyRouteComponent(() => import('@/features/runs/runs-page'), 'RunsPage'),
+});
+
+const launch = createRoute({
+  getParentRoute: () => root,
+  path: '/launch',
+  validateSearch: readLaunchSearch,
+  component: lazyRouteComponent(() => import('@/features/launch/launch-page'), 'LaunchPage'),
+});
+
+const run = createRoute({
+  getParentRoute: () => root,
+  path: '/runs/$runId',
+  validateSearch: readRunSearch,
+  component: lazyRouteComponent(() => import('@/features/run/run-page'), 'RunPage'),
+});
+
+const workers = createRoute({
+  getParentRoute: () => root,
+  path: '/workers',
+  component: lazyRouteComponent(() => import('@/features/workers/workers-page'), 'WorkersPage'),
+});
+
+export const router = createRouter({
+  routeTree: root.addChildren([runs, launch, run, workers]),
+  defaultNotFoundComponent: PageNotFound,
+  defaultErrorComponent: PageBroke,
+  scrollRestoration: true,
+  // Every search value is a plain word, so addresses need no JSON quotes.
+  parseSearch: parseSearchWith((value) => value),
+  stringifySearch: stringifySearchWith(String),
+});
+
+declare module '@tanstack/react-router' {
+  interface Register {
+    router: typeof router;
+  }
+}

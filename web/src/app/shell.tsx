@@ -1,0 +1,28 @@
+/** What surrounds every page: the rail, the banner when the server is away, the page itself. */
+import { useLocalStorage } from '@mantine/hooks';
+import { Outlet } from '@tanstack/react-router';
+import { ConnectionBanner } from '@/app/connection-banner';
+import { Rail } from '@/app/rail';
+import classes from './shell.module.css';
+
+export function Shell() {
+  const [isNarrow, setNarrow] = useLocalStorage({
+    key: 'sldr-rail-narrow',
+    defaultValue: false,
+    getInitialValueInEffect: false,
+  });
+  return (
+    <div className={classes.shell} data-narrow={isNarrow || undefined}>
+      <a className={classes.skip} href="#main">
+        Skip to the page
+      </a>
+      <Rail isNarrow={isNarrow} onToggle={() => setNarrow(!isNarrow)} />
+      <div className={classes.content}>
+        <ConnectionBanner />
+        <main id="main" tabIndex={-1} className={classes.main}>
+          <Outlet />
+        </main>
+      </div>
+    </div>
+  );
+}

@@ -1,0 +1,145 @@
+/** How a chart is drawn and what the mouse does in it. */
+import uPlot from 'uplot';
+import { lineStyle, type Scheme } from '@/lib/palette';
+
+/** What decides how a chart looks, beside its points. */
+export interface ChartLook {
+  readonly height: number;
+  readonly isShare: boolean;
+  /** Whether smoothed curves are drawn, with the logged points faded behind them. */
+  readonly isSmoothed: boolean;
+  readonly formatX: (value: number) => string;
+  readonly formatY: (value: number) => string;
+  /** Places on the x axis where a later attempt began. */
+  readonly marks: readonly { readonly x: number; readonly label: string }[];
+}
+
+interface Current extends ChartLook {
+  readonly lines: readonly { readonly label: string; readonly raw: readonly (number | null)[] }[];
+  readonly range: readonly [number, number];
+  readonly scheme: Scheme;
+  readonly onPoint: (at: number | null) => void;
+  readonly onZoom: (range: readonly [number, number] | null) => void;
+}
+
+/** All charts of the page share the cursor of this name. */
+const SHARED_CURSOR = 'run';
+/** A drag shorter than this is a click [px]. */
+const LEAST_DRAG = 5;
+/** Points are drawn as dots up to this many. */
+const MOST_DOTS = 120;
+const FADED = '45';
+
+const INK: Record<Scheme, { text: string; grid: string; mark: string }> = {
+  light: { text: '#5c6370', grid: '#eceef1', mark: '#7a4894' },
+  dark: { text: '#9ba3af', grid: '#262b32', mark: '#cf9ce6' },
+};
+
+/** Options for uPlot; what changes between renders is read through `now`. */
+export function chartOptions(now: () => Current, width: number): uPlot.Options {
+  const { height, isShare, lines, scheme } = now();
+  const ink = INK[scheme];
+  const font = '11px system-ui, sans-serif';
+  const axis: uPlot.Axis = { stroke: ink.text, font, grid: { stroke: ink.grid, width: 1 }, ticks: { show: false } };
+  return {
+    width,
+    height,
+    padding: [8, 8, 0, 0],
+    legend: { show: false },
+    scales: {
+      x: { time: false, range: () => [...now().range] as [number, number] },
+      y: { range: (_plot, low, high) => (isShare ? [-0.02, 1.02] : padded(low, high)) },
+    },
+    axes: [
+      { ...axis, size: 28, gap: 4, space: 60, values: (_plot, splits) => splits.map((value) => now().formatX(value)) },
+      { ...axis, size: 52, gap: 5, space: 28, values: (_plot, splits) => splits.map((value) => now().formatY(value)) },
+    ],
+    series: [{}, ...seriesOf(now(), lines.length)],
+    cursor: {
+      y: false,
+      drag: { x: true, y: false, setScale: false, dist: LEAST_DRAG },
+      sync: {
+        key: SHARED_CURSOR,
+        scales: ['x', null],
+        filters: { pub: (type) => type === 'mousemove' || type === 'mouseleave', sub: () => true },
+      },
+      bind: {
+        dblclick: () => () => {
+          now().onZoom(null);
+          return null;
+        },
+      },
+    },
+    hooks: {
+      setCursor: [(plot) => now().onPoint(plot.cursor.idx ?? null)],
+      setSelect: [(plot) => zoomToSelection(plot, now().onZoom)],
+      draw: [(plot) => drawMarks(plot, now().marks, ink.mark)],
+    },
+  };
+}
+
+function seriesOf({ isSmoothed, scheme, lines }: Current, count: number): uPlot.Series[] {
+  const styles = Array.from({ length: count }, (_, at) => lineStyle(at, scheme));
+  const points: uPlot.Series.Points = {
+    show: (plot, at) => (plot.data[at] ?? []).filter((value) => value !== null).length <= MOST_DOTS,
+    size: 5,
+  };
+  const raw = styles.map(
+    ({ color, dash }, at): uPlot.Series => ({
+      label: lines[at]?.label,
+      stroke: isSmoothed ? `${color}${FADED}` : color,
+      width: isSmoothed ? 1 : 1.6,
+      dash: isSmoothed ? [] : [...dash],
+      spanGaps: true,
+      points: isSmoothed ? { show: false } : points,
+    }),
+  );
+  const smoothed = styles.map(
+    ({ color, dash }): uPlot.Series => ({
+      stroke: color,
+      width: 2,
+      dash: [...dash],
+      spanGaps: true,
+      points: { show: false },
+    }),
+  );
+  return isSmoothed ? [...raw, ...smoothed] : raw;
+}
+
+function padded(low: number | null, high: number | null): [number, number] {
+  if (low === null || high === null) return [0, 1];
+  const margin = (high - low) * 0.08 || Math.abs(high) * 0.1 || 1;
+  // A curve that never falls below zero is drawn from zero when it comes near it.
+  const bottom = low >= 0 && low - margin < (high - low) * 0.5 ? 0 : low - margin;
+  return [bottom, high + margin];
+}
+
+function zoomToSelection(plot: uPlot, onZoom: Current['onZoom']): void {
+  const { left, width } = plot.select;
+  if (width < LEAST_DRAG) return;
+  onZoom([plot.posToVal(left, 'x'), plot.posToVal(left + width, 'x')]);
+  plot.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
+}
+
+function drawMarks(plot: uPlot, marks: ChartLook['marks'], color: string): void {
+  const { ctx, bbox } = plot;
+  const ratio = uPlot.pxRatio;
+  ctx.save();
+  ctx.strokeStyle = color;
+  ctx.fillStyle = color;
+  ctx.lineWidth = ratio;
+  ctx.font = `${10 * ratio}px system-ui, sans-serif`;
+  ctx.textAlign = 'left';
+  ctx.textBaseline = 'alphabetic';
+  ctx.setLineDash([3 * ratio, 3 * ratio]);
+  for (const { x, label } of marks) {
+    const left = plot.valToPos(x, 'x', true);
+    if (left < bbox.left || left > bbox.left + bbox.width) continue;
+    ctx.beginPath();
+    ctx.moveTo(left, bbox.top);
+    ctx.lineTo(left, bbox.top + bbox.height);
+    ctx.stroke();
+    ctx.fillText(label, left + 4 * ratio, bbox.top + 10 * ratio);
+  }
+  ctx.restore();
+}

@@ -1,0 +1,96 @@
+/** Task, phase, method, seeds and preset. */
+import { Chip, Group, TextInput } from '@mantine/core';
+import type { Choices } from '@/client/schema.gen';
+import { ChoiceCards } from '@/components/choice-cards';
+import { formatName } from '@/lib/format';
+import type { LaunchSearch } from '../search';
+import type { Chosen } from '../use-launch-form';
+import classes from './launch.module.css';
+import { TaskPicture } from './task-picture';
+
+const PHASES = {
+  manipulation: 'The robot learns to move the object. Methods with SLDR bring the locomotion run they need.',
+  locomotion: 'The object learns to move itself to its goal, without the robot.',
+};
+
+const SEED_SHORTCUTS = ['0', '0-2', '0-4', '0-9'];
+
+interface Props {
+  choices: Choices;
+  chosen: Chosen;
+  problems: Readonly<Record<string, string>>;
+  onChoose: (changes: LaunchSearch) => void;
+}
+
+export function LaunchChoices({ choices, chosen, problems, onChoose }: Props) {
+  return (
+    <>
+      <ChoiceCards
+        legend="Task"
+        width={230}
+        value={chosen.task}
+        problem={problems.task}
+        onChange={(task) => onChoose({ task })}
+        cards={choices.tasks.map((task) => ({
+          value: task.name,
+          title: task.name,
+          summary: task.goal_text,
+          picture: <TaskPicture url={task.picture_url} />,
+        }))}
+      />
+      <ChoiceCards
+        legend="Phase"
+        width={260}
+        value={chosen.phase}
+        problem={problems.phase}
+        onChange={(phase) => onChoose({ phase: phase as Chosen['phase'] })}
+        cards={[...choices.phases]
+          .reverse()
+          .map((phase) => ({ value: phase, title: formatName(phase), summary: PHASES[phase] }))}
+      />
+      <ChoiceCards
+        legend="Method"
+        width={230}
+        value={chosen.method}
+        problem={problems.method}
+        onChange={(method) => onChoose({ method })}
+        cards={choices.methods.map((method) => ({
+          value: method.name,
+          title: method.name,
+          summary: method.summary,
+          obstacle:
+            chosen.phase === 'locomotion' && method.needs_locomotion
+              ? 'Only for manipulation: it needs a locomotion model.'
+              : undefined,
+        }))}
+      />
+      <ChoiceCards
+        legend="Preset"
+        width={200}
+        value={chosen.preset}
+        problem={problems.preset}
+        onChange={(preset) => onChoose({ preset })}
+        cards={choices.presets.map((preset) => ({ value: preset.name, title: preset.name, summary: preset.summary }))}
+      />
+      <div>
+        <div className={classes.seeds}>
+          <TextInput
+            label="Seeds"
+            description="One run per seed: 0, or 0-4, or 1, 3, 7-9"
+            w={280}
+            value={chosen.seeds}
+            error={problems.seeds}
+            onChange={(event) => onChoose({ seeds: event.currentTarget.value })}
+          />
+          <Group gap={4} role="group" aria-label="Common seeds">
+            {SEED_SHORTCUTS.map((seeds) => (
+              <Chip key={seeds} size="xs" checked={chosen.seeds.trim() === seeds} onChange={() => onChoose({ seeds })}>
+                {seeds}
+              </Chip>
+            ))}
+          </Group>
+        </div>
+      </div>
+    </>
+  );
+}

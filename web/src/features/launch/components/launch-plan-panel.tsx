@@ -1,0 +1,99 @@
+/** What this launch would queue and reuse, and the button that does it. */
+import { Button } from '@mantine/core';
+import type { LaunchPlan, PlannedRun } from '@/client/schema.gen';
+import { AnchorLink } from '@/components/anchor-link';
+import { Icon } from '@/components/icon';
+import { formatPlural } from '@/lib/format';
+import type { LaunchForm } from '../use-launch-form';
+import classes from './launch.module.css';
+
+/** Longer plans are cut after this many rows. */
+const MOST_ROWS = 12;
+
+interface Props {
+  form: LaunchForm;
+  problems: readonly string[];
+  hasFieldProblems: boolean;
+  isLaunching: boolean;
+}
+
+export function LaunchPlanPanel({ form, problems, hasFieldProblems, isLaunching }: Props) {
+  const { plan, isPlanning } = form;
+  const added = plan?.runs.filter((run) => run.reused_run_id === null).length;
+  return (
+    <aside className={`card ${classes.plan}`} aria-label="What will be queued">
+      <h2 className={classes.planTitle}>What will be queued</h2>
+      <div aria-live="polite" data-planning={isPlanning || undefined} className={classes.planBody}>
+        {plan ? (
+          <Plan plan={plan} />
+        ) : (
+          <p className="faint">{hasFieldProblems ? 'Mend the marked fields first.' : 'Looking…'}</p>
+        )}
+        {problems.map((problem) => (
+          <p key={problem} className="problem" role="alert">
+            {problem}
+          </p>
+        ))}
+      </div>
+      <Button
+        type="submit"
+        fullWidth
+        size="md"
+        loading={isLaunching}
+        disabled={form.launch === null || plan === undefined || isPlanning || hasFieldProblems}
+      >
+        {added === undefined ? 'Launch' : added === 0 ? 'Open what exists' : `Launch ${formatPlural(added, 'run')}`}
+      </Button>
+    </aside>
+  );
+}
+
+function Plan({ plan }: { plan: LaunchPlan }) {
+  const reused = plan.runs.filter((run) => run.reused_run_id !== null).length;
+  const added = plan.runs.length - reused;
+  const rows = plan.runs.slice(0, MOST_ROWS);
+  return (
+    <>
+      <p className={classes.planSum}>
+        <b>{formatPlural(added, 'run')}</b> will be queued{reused > 0 && `, ${formatPlural(reused, 'run')} reused`}.
+      </p>
+      <ol className={classes.planRows}>
+        {rows.map((run) => (
+          <li key={`${run.phase} ${run.seed}`}>
+            <PlanRow run={run} isNeeded={plan.runs.some((other) => needs(other, run))} />
+          </li>
+        ))}
+      </ol>
+      {plan.runs.length > rows.length && <p className="faint">and {plan.runs.length - rows.length} more</p>}
+    </>
+  );
+}
+
+function PlanRow({ run, isNeeded }: { run: PlannedRun; isNeeded: boolean }) {
+  return (
+    <>
+      <Icon name={run.reused_run_id === null ? 'launch' : 'succeeded'} size={14} />
+      <span>
+        <b>{run.phase}</b>, {run.method}, seed {run.seed}
+        <span className={classes.planNote}>
+          {run.reused_run_id !== null ? (
+            <>
+              {'reused: '}
+              <AnchorLink to="/runs/$runId" params={{ runId: run.reused_run_id }} fz="inherit">
+                see the run
+              </AnchorLink>
+            </>
+          ) : isNeeded ? (
+            'added first: the robot learns from its model'
+          ) : (
+            'new'
+          )}
+        </span>
+      </span>
+    </>
+  );
+}
+
+function needs(run: PlannedRun, other: PlannedRun): boolean {
+  return run !== other && run.phase === 'manipulation' && other.phase === 'locomotion';
+}

@@ -1,0 +1,95 @@
+/** Choose what to train, see what it means, launch it. */
+import { Button } from '@mantine/core';
+import { useQuery } from '@tanstack/react-query';
+import { getRouteApi } from '@tanstack/react-router';
+import type { Choices } from '@/client/schema.gen';
+import { SentencePanel } from '@/components/sentence-panel';
+import { sentence } from '@/lib/api';
+import { choicesQuery } from '@/lib/queries';
+import { useLaunch } from './api/launch-runs';
+import { AdvancedSettings } from './components/advanced-settings';
+import classes from './components/launch.module.css';
+import { LaunchChoices } from './components/launch-choices';
+import { LaunchPlanPanel } from './components/launch-plan-panel';
+import { fieldProblems } from './field-problems';
+import type { LaunchSearch } from './search';
+import { useLaunchForm } from './use-launch-form';
+
+const route = getRouteApi('/launch');
+
+export function LaunchPage() {
+  const {
+    data: choices,
+    error,
+    refetch,
+  } = useQuery({ ...choicesQuery, refetchInterval: ({ state }) => (state.data ? false : 3_000) });
+  return (
+    <>
+      <title>New run · SLDR</title>
+      <div className="page-head">
+        <h1>New run</h1>
+      </div>
+      {choices && <Form choices={choices} />}
+      {error && !choices && (
+        <SentencePanel
+          urgent
+          title="The choices cannot be shown"
+          actions={<Button onClick={() => void refetch()}>Try again</Button>}
+        >
+          {sentence(error)}
+        </SentencePanel>
+      )}
+    </>
+  );
+}
+
+function Form({ choices }: { choices: Choices }) {
+  const search = route.useSearch();
+  const navigate = route.useNavigate();
+  const form = useLaunchForm(search, choices);
+  const launching = useLaunch();
+  const refused = fieldProblems(launching.error, form.known);
+  const problems = { ...refused.fields, ...form.problems };
+  const choose = (changes: LaunchSearch): void => {
+    launching.reset();
+    void navigate({ search: (old) => ({ ...old, ...changes }), replace: true });
+  };
+  const submit = async (): Promise<void> => {
+    if (form.launch === null) return;
+    const { runs } = await launching.mutateAsync(form.launch);
+    const wanted = runs.filter((run) => run.phase === form.chosen.phase && run.method === form.chosen.method);
+    const [only] = wanted;
+    if (only !== undefined && wanted.length === 1) await navigate({ to: '/runs/$runId', params: { runId: only.id } });
+    else await navigate({ to: '/' });
+  };
+  return (
+    <form
+      className={classes.form}
+      aria-label="New run"
+      noValidate
+      onSubmit={(event) => {
+        event.preventDefault();
+        // A refusal is shown at its field.
+        submit().catch(() => undefined);
+      }}
+    >
+      <div className={classes.fields}>
+        <LaunchChoices choices={choices} chosen={form.chosen} problems={problems} onChoose={choose} />
+        <AdvancedSettings
+          form={form}
+          problems={problems}
+          onType={(path, text) => {
+            launching.reset();
+            form.type(path, text);
+          }}
+        />
+      </div>
+      <LaunchPlanPanel
+        form={form}
+        problems={[...form.otherProblems, ...refused.others]}
+        hasFieldProblems={Object.keys(problems).length > 0}
+        isLaunching={launching.isPending}
+      />
+    </form>
+  );
+}

@@ -1,0 +1,92 @@
+/** The state of the launch form: the choices in the address, the settings that were typed, and what they add up to. */
+import { useDebouncedValue } from '@mantine/hooks';
+import { useQuery } from '@tanstack/react-query';
+import { useMemo, useState } from 'react';
+import type { Choices, Launch } from '@/client/schema.gen';
+import { defaultsQuery } from '@/lib/queries';
+import { overridesOf, readSettingGroups } from '@/lib/settings';
+import { planQuery } from './api/plan-launch';
+import { fieldProblems } from './field-problems';
+import type { LaunchSearch } from './search';
+import { parseSeeds } from './seeds';
+
+/** Rest after the last change before the plan is asked for [ms]. */
+const REST_MS = 250;
+
+const CHOICE_FIELDS = ['task', 'phase', 'method', 'preset', 'seeds'];
+
+/** Every choice made, by the person or by default. */
+export type Chosen = Required<LaunchSearch>;
+
+/** Fill the choices that the address leaves open. */
+export function fillChoices(search: LaunchSearch, choices: Choices): Chosen {
+  const phase = search.phase ?? 'manipulation';
+  const methods = choices.methods.filter((method) => phase === 'manipulation' || !method.needs_locomotion);
+  const pick = (wanted: string, names: readonly string[]): string =>
+    names.includes(wanted) ? wanted : (names[0] ?? '');
+  const methodNames = methods.map((method) => method.name);
+  return {
+    task: search.task ?? choices.tasks[0]?.name ?? '',
+    phase,
+    method: pick(search.method ?? (phase === 'manipulation' ? 'her-sldr' : 'her'), methodNames),
+    preset:
+      search.preset ??
+      pick(
+        'quick',
+        choices.presets.map((preset) => preset.name),
+      ),
+    seeds: search.seeds ?? '0',
+  };
+}
+
+export function useLaunchForm(search: LaunchSearch, choices: Choices) {
+  const chosen = fillChoices(search, choices);
+  const { task, phase, method, preset } = chosen;
+  const [typed, setTyped] = useState<Readonly<Record<string, string>>>({});
+  const groups = useMemo(() => readSettingGroups(choices.config_schema), [choices.config_schema]);
+  const known = useMemo(
+    () => new Set([...CHOICE_FIELDS, ...groups.flatMap((group) => group.settings.map((setting) => setting.path))]),
+    [groups],
+  );
+  const defaults = useQuery(defaultsQuery({ task, phase, method, preset }));
+  const overrides = overridesOf(groups, typed, defaults.data ?? {});
+  const seeds = readSeeds(chosen.seeds);
+  const isReadable = seeds.problem === undefined && Object.keys(overrides.problems).length === 0;
+  const launch: Launch | null =
+    isReadable && defaults.data
+      ? { task, phase, method, preset, seeds: seeds.seeds, overrides: overrides.values }
+      : null;
+  // The plan belongs to the launch that rested, so a hasty click never launches what was not shown.
+  const [resting] = useDebouncedValue(JSON.stringify(launch), REST_MS);
+  const isResting = resting === JSON.stringify(launch);
+  const plan = useQuery(planQuery(useMemo(() => JSON.parse(resting) as Launch | null, [resting])));
+  const refused = fieldProblems(launch === null ? defaults.error : (plan.error ?? defaults.error), known);
+  const problems: Record<string, string> = { ...refused.fields, ...overrides.problems };
+  if (seeds.problem !== undefined) problems.seeds = seeds.problem;
+  return {
+    chosen,
+    groups,
+    known,
+    defaults: defaults.data,
+    typed,
+    changed: overrides.changed,
+    launch,
+    plan: launch !== null && !plan.isError ? plan.data : undefined,
+    isPlanning: !isResting || plan.isPlaceholderData || plan.isFetching,
+    problems,
+    otherProblems: refused.others,
+    type: (path: string, text: string | undefined) =>
+      setTyped(({ [path]: _, ...rest }) => (text === undefined ? rest : { ...rest, [path]: text })),
+    resetSettings: () => setTyped({}),
+  };
+}
+
+export type LaunchForm = ReturnType<typeof useLaunchForm>;
+
+function readSeeds(text: string): { seeds: number[]; problem?: string } {
+  try {
+    return { seeds: parseSeeds(text) };
+  } catch (error) {
+    return { seeds: [], problem: (error as Error).message };
+  }
+}

@@ -1,0 +1,47 @@
+/** One 3D session: asked for, waited for, and closed when nobody looks any more. */
+import { useMutation, useQuery } from '@tanstack/react-query';
+import { useEffect } from 'react';
+import type { ViewerSession } from '@/client/schema.gen';
+import { client, unwrap } from '@/lib/api';
+
+const STARTING_POLL_MS = 500; // [ms]
+const READY_POLL_MS = 5_000; // [ms]
+
+/** Open, follow and close a 3D session of a run. */
+export function useViewerSession(runId: string) {
+  const opening = useMutation({
+    mutationFn: () => unwrap(client.POST('/api/viewer-sessions', { body: { run_id: runId } })),
+  });
+  const id = opening.data?.id;
+  const following = useQuery({
+    queryKey: ['viewer', id],
+    queryFn: ({ signal }) =>
+      unwrap(client.GET('/api/viewer-sessions/{session_id}', { params: { path: { session_id: id ?? '' } }, signal })),
+    enabled: id !== undefined,
+    refetchInterval: ({ state }) => (state.data?.state === 'starting' ? STARTING_POLL_MS : READY_POLL_MS),
+    gcTime: 0,
+  });
+  useEffect(() => {
+    if (id === undefined) return;
+    const close = (): void => closeSession(id);
+    window.addEventListener('pagehide', close);
+    return () => {
+      window.removeEventListener('pagehide', close);
+      close();
+    };
+  }, [id]);
+  const session: ViewerSession | undefined = id === undefined ? undefined : (following.data ?? opening.data);
+  return {
+    session,
+    isOpening: opening.isPending,
+    error: opening.error ?? following.error,
+    open: () => opening.mutate(),
+    close: opening.reset,
+  };
+}
+
+// keepalive lets the request outlive the page; a session that it misses ends by itself when idle.
+function closeSession(id: string): void {
+  const params = { path: { session_id: id } };
+  client.DELETE('/api/viewer-sessions/{session_id}', { params, keepalive: true }).catch(() => undefined);
+}

@@ -1,0 +1,96 @@
+/** Which run this is, how it stands, and what can be done with it. */
+import { Button } from '@mantine/core';
+import { useQuery } from '@tanstack/react-query';
+import type { RunDetail } from '@/client/schema.gen';
+import { AnchorLink, ButtonLink } from '@/components/anchor-link';
+import { Freshness } from '@/components/freshness';
+import { Icon } from '@/components/icon';
+import { StateBadge } from '@/components/state-badge';
+import { hasEnded } from '@/lib/states';
+import { filesQuery } from '../api/run-records';
+import { CancelButton } from './cancel-button';
+import classes from './run.module.css';
+import { RunFigures } from './run-figures';
+
+export function RunHeader({ run, updatedAt }: { run: RunDetail; updatedAt: number }) {
+  return (
+    <header className={classes.header}>
+      <div className="page-head">
+        <h1>{run.task}</h1>
+        <StateBadge state={run.state} ending={run.state === 'running' && run.cancel_requested} />
+        {!hasEnded(run.state) && <Freshness updatedAt={updatedAt} />}
+        <span className={classes.actions}>
+          {run.has_recording && <RecordingButton runId={run.id} />}
+          <ButtonLink
+            to="/launch"
+            search={{
+              task: run.task,
+              phase: run.phase,
+              method: run.method,
+              preset: run.preset,
+              seeds: String(run.seed),
+            }}
+            variant="default"
+            size="xs"
+          >
+            Launch again
+          </ButtonLink>
+          {!hasEnded(run.state) && <CancelButton run={run} />}
+        </span>
+      </div>
+      <Notes run={run} />
+      <RunFigures run={run} />
+    </header>
+  );
+}
+
+function Notes({ run }: { run: RunDetail }) {
+  return (
+    <p className={classes.notes}>
+      <span className="faint">
+        {run.phase} · {run.method} · seed {run.seed} · preset {run.preset}
+        {run.attempt > 1 && ` · attempt ${run.attempt}`}
+      </span>
+      {run.reason !== null && (
+        <span className={classes.reason} data-state={run.state} role={run.state === 'failed' ? 'alert' : undefined}>
+          {run.reason}
+        </span>
+      )}
+      {run.locomotion_run_id !== null && (
+        <span className="faint">
+          {run.state === 'blocked' ? 'Waits for ' : 'Learns from '}
+          <AnchorLink to="/runs/$runId" params={{ runId: run.locomotion_run_id }} fz="inherit">
+            its locomotion run
+          </AnchorLink>
+        </span>
+      )}
+    </p>
+  );
+}
+
+function RecordingButton({ runId }: { runId: string }) {
+  const { data } = useQuery(filesQuery(runId));
+  // The newest attempt's recording; attempts are counted in the name.
+  const recording = data?.files
+    .filter((file) => file.name.endsWith('.rrd'))
+    .sort(byName)
+    .at(-1);
+  if (recording === undefined) return null;
+  return (
+    <Button
+      component="a"
+      href={recording.url}
+      download={recording.name}
+      variant="default"
+      size="xs"
+      leftSection={<Icon name="download" size={14} />}
+      title={`Opens with: rerun ${recording.name}`}
+    >
+      Rerun recording
+    </Button>
+  );
+}
+
+function byName(one: { name: string }, other: { name: string }): number {
+  return one.name.localeCompare(other.name, 'en', { numeric: true });
+}

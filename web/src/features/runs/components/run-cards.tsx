@@ -1,0 +1,68 @@
+/** The runs as cards, for narrow screens. */
+import type { RunSummary } from '@/client/schema.gen';
+import { AnchorLink } from '@/components/anchor-link';
+import { RunProgress } from '@/components/run-progress';
+import { StateBadge } from '@/components/state-badge';
+import { formatDuration } from '@/lib/format';
+import { runTitle } from '@/lib/run-title';
+import { Elapsed, Speed, Started, Success } from './run-figures';
+import { hasNote, RunNote } from './run-note';
+import classes from './runs.module.css';
+
+export function RunCards({ runs }: { runs: readonly RunSummary[] }) {
+  return (
+    <ul className={classes.cards} aria-label="Runs">
+      {runs.map((run) => (
+        <li key={run.id} className={`card ${classes.card}`} data-run={run.id}>
+          <div className={classes.cardHead}>
+            <AnchorLink to="/runs/$runId" params={{ runId: run.id }} fw={600} aria-label={runTitle(run)}>
+              {run.task}
+            </AnchorLink>
+            <StateBadge state={run.state} ending={run.state === 'running' && run.cancel_requested} />
+          </div>
+          <div className="faint">
+            {run.phase} · {run.method} · seed {run.seed} · {run.preset}
+          </div>
+          {run.progress && (
+            <RunProgress progress={run.progress} state={run.state} label={`Progress of ${runTitle(run)}`} />
+          )}
+          <dl className={classes.figures}>
+            {run.progress && (
+              <Figure name="Success">
+                <Success progress={run.progress} />
+              </Figure>
+            )}
+            {run.state === 'running' && (
+              <>
+                <Figure name="Steps / updates per s">
+                  <Speed run={run} />
+                </Figure>
+                <Figure name="Left">{formatDuration(run.progress?.seconds_left)}</Figure>
+              </>
+            )}
+            {run.started_at && (
+              <>
+                <Figure name="Duration">
+                  <Elapsed run={run} />
+                </Figure>
+                <Figure name="Started">
+                  <Started run={run} />
+                </Figure>
+              </>
+            )}
+          </dl>
+          {hasNote(run) && <RunNote run={run} runs={runs} />}
+        </li>
+      ))}
+    </ul>
+  );
+}
+
+function Figure({ name, children }: { name: string; children: React.ReactNode }) {
+  return (
+    <div>
+      <dt className="faint">{name}</dt>
+      <dd className="number">{children}</dd>
+    </div>
+  );
+}

@@ -1,0 +1,66 @@
+/** The figures of a run that the table and the cards both show. */
+import type { Progress, RunSummary } from '@/client/schema.gen';
+import {
+  formatAgo,
+  formatDuration,
+  formatMoment,
+  formatShare,
+  formatShort,
+  NOTHING,
+  secondsBetween,
+} from '@/lib/format';
+import { useNow } from '@/lib/use-now';
+import classes from './runs.module.css';
+
+/** Success of the newest test, and the best so far. */
+export function Success({ progress }: { progress: Progress | null }) {
+  if (progress?.success_rate == null) return <>{NOTHING}</>;
+  return (
+    <>
+      <b className={classes.newest}>{formatShare(progress.success_rate)}</b>
+      <span className="faint" title="Best of all tests">
+        {' / '}
+        {formatShare(progress.best_success_rate)}
+      </span>
+    </>
+  );
+}
+
+/** Env steps per second, and updates per second, while it trains. */
+export function Speed({ run }: { run: RunSummary }) {
+  if (run.state !== 'running' || run.progress?.env_steps_per_s == null) return NOTHING;
+  const { env_steps_per_s, updates_per_s } = run.progress;
+  return (
+    <span title={`${formatShort(env_steps_per_s)} env steps/s, ${formatShort(updates_per_s)} updates/s`}>
+      {formatShort(env_steps_per_s)}
+      <span className="faint"> / {formatShort(updates_per_s)}</span>
+    </span>
+  );
+}
+
+/** How long a run has been trained. */
+export function Elapsed({ run }: { run: RunSummary }) {
+  return run.state === 'running' && run.started_at !== null ? (
+    <Running since={run.started_at} />
+  ) : (
+    formatDuration(secondsBetween(run.started_at, run.ended_at))
+  );
+}
+
+function Running({ since }: { since: string }) {
+  const now = useNow();
+  return <>{formatDuration(secondsBetween(since, now))}</>;
+}
+
+/** How long ago it began; the moment itself on hover. */
+export function Started({ run }: { run: RunSummary }) {
+  const now = useNow(10_000);
+  if (run.started_at === null) {
+    return <span title={`Launched ${formatMoment(run.created_at)}`}>{NOTHING}</span>;
+  }
+  return (
+    <time dateTime={run.started_at} title={formatMoment(run.started_at)} className="faint">
+      {formatAgo(secondsBetween(run.started_at, now))}
+    </time>
+  );
+}

@@ -1,0 +1,36 @@
+/** Colours and dash patterns that stay apart for every kind of colour vision, on light and on dark. */
+import type { RunState } from '@/client/schema.gen';
+
+export type Scheme = 'light' | 'dark';
+
+/** One way to draw a line: colour for most, dash for all. */
+export interface LineStyle {
+  readonly color: string;
+  /** Lengths of line and gap [px]; empty for a solid line. */
+  readonly dash: readonly number[];
+}
+
+// Okabe and Ito's colours, darkened or lightened until each has a contrast of at least 3 against the page.
+const COLORS: Record<Scheme, readonly string[]> = {
+  light: ['#0067a8', '#c25700', '#00805c', '#a8508a', '#8a6d00', '#2b8fc9', '#555b66'],
+  dark: ['#62b0ea', '#f29a4a', '#2fc79a', '#e39cc8', '#e3cf4b', '#9cd7fa', '#b4bac4'],
+};
+
+const DASHES: readonly (readonly number[])[] = [[], [7, 3], [2, 2], [9, 3, 2, 3], [12, 4], [4, 2, 1, 2], [1, 3]];
+
+/** The style of the n-th line of a chart. */
+export function lineStyle(index: number, scheme: Scheme): LineStyle {
+  const colors = COLORS[scheme];
+  return { color: colors[index % colors.length] ?? '#888888', dash: DASHES[index % DASHES.length] ?? [] };
+}
+
+/** A run state's colour, as text and as line, for each scheme. */
+export const STATE_COLORS: Record<RunState, Record<Scheme, string>> = {
+  blocked: { light: '#8a5a00', dark: '#e3b341' },
+  queued: { light: '#59606b', dark: '#a6adb8' },
+  running: { light: '#0062a3', dark: '#62b0ea' },
+  paused: { light: '#7a4894', dark: '#cf9ce6' },
+  succeeded: { light: '#007350', dark: '#2fc79a' },
+  failed: { light: '#b3330d', dark: '#ff8a66' },
+  cancelled: { light: '#666b73', dark: '#959ba5' },
+};

@@ -1,0 +1,27 @@
+/** Smooth a curve without moving its start: an exponential mean, freed from the bias of starting at zero. */
+
+/**
+ * Smooth the values of a curve; gaps (null) stay gaps.
+ * The past fades with the steps that lie between two points, so curves logged often and rarely are smoothed alike.
+ * @param steps where each value was logged, ascending
+ * @param weight how much of the past is kept over one step, from 0 (the raw curve) to below 1
+ */
+export function smooth(
+  values: readonly (number | null)[],
+  steps: readonly number[],
+  weight: number,
+): readonly (number | null)[] {
+  if (weight <= 0) return values;
+  let mean = 0;
+  let missing = 1;
+  let last: number | null = null;
+  return values.map((value, at) => {
+    if (value === null || !Number.isFinite(value)) return null;
+    const step = steps[at] ?? at;
+    const kept = weight ** Math.max(1, last === null ? 1 : step - last);
+    last = step;
+    mean = kept * mean + (1 - kept) * value;
+    missing *= kept;
+    return mean / (1 - missing);
+  });
+}
