@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 
 import uvicorn
+from fastapi import FastAPI
 
 from backend.api.app import create_app
 from backend.store.settings import load_settings
@@ -12,8 +13,22 @@ from backend.store.settings import load_settings
 LARGEST_MESSAGE = 64 * 1024 * 1024
 """Largest websocket message from a browser, above what Viser takes [bytes]."""
 
-SHUTDOWN_S = 5
+SHUTDOWN_S = 2
 """How long open connections may hold up the end [s]."""
+
+
+def make_server(app: FastAPI, host: str, port: int) -> uvicorn.Server:
+    """Return the server of an application; 3D views want large messages and no compression of what is dense."""
+    config = uvicorn.Config(
+        app,
+        host=host,
+        port=port,
+        log_level="warning",
+        ws_per_message_deflate=False,
+        ws_max_size=LARGEST_MESSAGE,
+        timeout_graceful_shutdown=SHUTDOWN_S,
+    )
+    return uvicorn.Server(config)
 
 
 def main() -> None:
@@ -22,15 +37,7 @@ def main() -> None:
     parser.add_argument("--host", default="127.0.0.1", help="address to listen on")
     parser.add_argument("--port", type=int, default=8000, help="port to listen on")
     arguments = parser.parse_args()
-    uvicorn.run(
-        create_app(load_settings()),
-        host=arguments.host,
-        port=arguments.port,
-        log_level="warning",
-        ws_per_message_deflate=False,
-        ws_max_size=LARGEST_MESSAGE,
-        timeout_graceful_shutdown=SHUTDOWN_S,
-    )
+    make_server(create_app(load_settings()), arguments.host, arguments.port).run()
 
 
 if __name__ == "__main__":

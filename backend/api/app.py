@@ -7,7 +7,6 @@ from contextlib import asynccontextmanager
 from importlib.metadata import version
 from pathlib import Path
 
-import httpx
 from fastapi import FastAPI
 from fastapi.routing import APIRoute
 from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddleware
@@ -64,7 +63,7 @@ def _lifespan(settings: Settings):  # noqa: ANN202 - the decorator's type is lon
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         database = open_database(settings)
-        with httpx.Client(trust_env=False, timeout=viewer_proxy.ANSWER_TIMEOUT_S) as viser:
+        with viewer_proxy.viser_client() as viser:
             tokens = ViewerTokens(load_secret(settings.secret_path))
             app.state.service = Service(settings=settings, database=database, tokens=tokens, viser=viser)
             yield

@@ -19,6 +19,7 @@ from sldr_core.errors import InvalidConfig, SldrError, UnknownName
 log = logging.getLogger("sldr.api")
 
 DESCRIPTIONS = {
+    400: "The request cannot be read.",
     403: "Not allowed.",
     404: "It does not exist.",
     409: "Its state does not allow this.",
@@ -78,6 +79,7 @@ def _answer_http_error(request: Request, error: Exception) -> Response:
     assert isinstance(error, HTTPException)
     path = request.url.path
     sentences = {
+        400: "The request's body cannot be read; send JSON as UTF-8.",
         404: f"There is nothing at {path}.",
         405: f"{request.method} is not possible on {path}.",
     }

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from fastapi import FastAPI
+from fastapi import FastAPI, Request
 from fastapi.responses import HTMLResponse
 from starlette.datastructures import MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
@@ -26,7 +26,8 @@ NOT_BUILT = """<!doctype html>
 
 def add_pages(app: FastAPI, directory: Path) -> None:
     """Serve the built page from `directory`, or a page that says how to build it."""
-    app.add_api_route("/api/{path:path}", _nothing_here, methods=["GET", "HEAD"], include_in_schema=False)
+    for path in ("/api", "/api/{path:path}"):
+        app.add_api_route(path, _nothing_here, methods=["GET", "HEAD"], include_in_schema=False)
     app.add_middleware(CacheRules)
     if (directory / "index.html").is_file():
         app.frontend("/", directory=directory, fallback="index.html")
@@ -57,9 +58,9 @@ class CacheRules:
         await self._app(scope, receive, send_with_rule)
 
 
-def _nothing_here(path: str) -> None:
+def _nothing_here(request: Request) -> None:
     """Answer unknown addresses of the API with JSON, to browsers too."""
-    raise ApiError(404, f"There is nothing at /api/{path}.")
+    raise ApiError(404, f"There is nothing at {request.url.path}.")
 
 
 def _say_how_to_build(path: str) -> HTMLResponse:

@@ -10,7 +10,12 @@ import sys
 from pathlib import Path
 
 from backend.api.app import create_app
-from backend.store.settings import load_settings
+from backend.store.settings import Settings, load_settings
+
+
+def schema_text(settings: Settings) -> str:
+    """Return the schema as JSON; it does not depend on the settings' values."""
+    return json.dumps(create_app(settings).openapi(), indent=2, sort_keys=True) + "\n"
 
 
 def main() -> None:
@@ -19,7 +24,7 @@ def main() -> None:
         sys.exit("Say where to write the schema: python -m backend.api.schema FILE")
     path = Path(sys.argv[1])
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(json.dumps(create_app(load_settings()).openapi(), indent=2, sort_keys=True) + "\n")
+    path.write_text(schema_text(load_settings()))
 
 
 if __name__ == "__main__":

@@ -50,6 +50,11 @@ class NoView(Exception):
         self.status = status
 
 
+def viser_client() -> httpx.Client:
+    """Return what fetches pages from the 3D servers: plain HTTP, no certificates, no proxy of the machine's."""
+    return httpx.Client(trust_env=False, verify=False, timeout=ANSWER_TIMEOUT_S)
+
+
 @router.get("/{token}")
 def open_view(token: str, request: Request) -> Response:
     """Lead to the page's own folder, so that its relative addresses work."""

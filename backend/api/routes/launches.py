@@ -15,7 +15,7 @@ from sldr_core.config import config_to_dict
 router = APIRouter(prefix="/api/launches", tags=["launches"])
 
 
-@router.post("/plan", responses=problem_responses(403, 422))
+@router.post("/plan", responses=problem_responses(400, 403, 422))
 def plan_launch(launch: Launch, store: Store) -> LaunchPlan:
     """Tell what a launch would queue and which existing runs it would share; queue nothing."""
     planned_runs = launches.plan_launch(store, _order(launch))
@@ -34,7 +34,7 @@ def plan_launch(launch: Launch, store: Store) -> LaunchPlan:
     )
 
 
-@router.post("", status_code=201, responses=problem_responses(403, 422))
+@router.post("", status_code=201, responses=problem_responses(400, 403, 422))
 def create_launch(launch: Launch, store: Store) -> LaunchResult:
     """Queue a launch's runs, the locomotion run they need first."""
     run_ids = launches.launch(store, _order(launch))

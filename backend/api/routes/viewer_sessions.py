@@ -16,7 +16,7 @@ from backend.store.runs import get_run
 router = APIRouter(prefix="/api/viewer-sessions", tags=["viewer sessions"])
 
 
-@router.post("", status_code=201, responses=problem_responses(403, 404, 409, 422))
+@router.post("", status_code=201, responses=problem_responses(400, 403, 404, 409, 422))
 def create_viewer_session(request: ViewerRequest, store: Store, tokens: Tokens) -> ViewerSession:
     """Ask the viewer host to show the newest policy of a run."""
     run = get_run(store, request.run_id)

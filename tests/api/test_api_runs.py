@@ -1,0 +1,130 @@
+"""Runs through the API: table, detail, history, cancel, curves."""
+
+from __future__ import annotations
+
+import pytest
+from live_api import Service, problem_fields
+
+from backend.store.metrics import MetricPoint, append_metrics
+from backend.store.progress import Progress, report_progress
+from backend.store.queue import Succeeded, finish
+from sldr_core.records import Step
+
+
+def step(cycle: int) -> Step:
+    return Step(cycle=cycle, epoch=1, env_steps=10 * cycle, episodes=cycle, updates=4 * cycle, wall_seconds=0.5 * cycle)
+
+
+def test_the_table_starts_empty(unused_service: Service):
+    assert unused_service.get("/api/runs") == {"runs": [], "next_cursor": None, "total": 0}
+
+
+def test_pages_follow_each_other_newest_first(service: Service):
+    ids = service.launch(seeds=(0, 1, 2))
+    first = service.get("/api/runs", params={"limit": 2})
+    second = service.get("/api/runs", params={"limit": 2, "cursor": first["next_cursor"]})
+    assert [run["id"] for run in first["runs"] + second["runs"]] == ids[::-1]
+    assert (first["total"], second["next_cursor"]) == (3, None)
+
+
+def test_filters_narrow_the_table(service: Service):
+    service.launch(method="her-sldr")
+    assert service.get("/api/runs", params={"phase": "locomotion"})["total"] == 1
+    assert service.get("/api/runs", params={"state": "blocked"})["total"] == 1
+    assert service.get("/api/runs", params={"method": "ddpg"})["total"] == 0
+    assert service.get("/api/runs", params={"search": "fetchpush sldr"})["total"] == 1
+
+
+@pytest.mark.parametrize(
+    ("params", "field"),
+    [
+        ({"state": "lost"}, "state"),
+        ({"phase": "flying"}, "phase"),
+        ({"limit": "0"}, "limit"),
+        ({"limit": "many"}, "limit"),
+        ({"cursor": "next"}, "cursor"),
+        ({"cursor": "9" * 40}, "cursor"),
+    ],
+)
+def test_a_filter_that_cannot_work_is_named(unused_service: Service, params: dict[str, str], field: str):
+    answer = unused_service.client.get("/api/runs", params=params)
+    assert answer.status_code == 422
+    assert problem_fields(answer) == [field]
+
+
+def test_a_run_shows_its_config_progress_and_what_it_needs(service: Service):
+    locomotion_id, run_id = service.launch(method="her-sldr")
+    held = service.claim()
+    report_progress(service.database, held, Progress(1, 2, 400, 8, 16, 0.25, 0.5, 0.75, 100.0, 50.0, 3.0))
+    locomotion = service.get(f"/api/runs/{locomotion_id}")
+    assert locomotion["progress"]["success_rate"] == 0.5
+    assert (locomotion["state"], locomotion["attempt"]) == ("running", 1)
+    waiting = service.get(f"/api/runs/{run_id}")
+    assert waiting["locomotion_run_id"] == locomotion_id
+    assert waiting["config"]["method"] == "her-sldr"
+    assert (waiting["progress"], waiting["has_policy"], waiting["has_recording"]) == (None, False, False)
+
+
+def test_a_run_tells_what_there_is_to_watch(service: Service):
+    service.launch()
+    held = service.claim()
+    service.write_file(held, "policy-newest.pt", b"policy")
+    service.write_file(held, "curves-attempt-1.rrd", b"recording")
+    run = service.get(f"/api/runs/{held.run_id}")
+    assert (run["has_policy"], run["has_recording"]) == (True, True)
+
+
+@pytest.mark.parametrize("part", ["", "/metrics", "/log", "/events", "/files", "/files/log.txt"])
+def test_an_unknown_run_is_not_found(unused_service: Service, part: str):
+    answer = unused_service.client.get(f"/api/runs/nope{part}")
+    assert answer.status_code == 404
+    assert "'nope'" in answer.json()["problems"][0]["message"]
+
+
+def test_a_waiting_run_is_cancelled_at_once(service: Service):
+    [run_id] = service.launch()
+    answer = service.client.post(f"/api/runs/{run_id}/cancel")
+    assert (answer.status_code, answer.json()["state"]) == (200, "cancelled")
+
+
+def test_a_running_run_is_asked_to_end(service: Service):
+    [run_id] = service.launch()
+    service.claim()
+    answer = service.client.post(f"/api/runs/{run_id}/cancel").json()
+    assert (answer["state"], answer["cancel_requested"]) == ("running", True)
+
+
+def test_an_ended_run_cannot_be_cancelled(service: Service):
+    [run_id] = service.launch()
+    finish(service.database, service.claim(), Succeeded(success_rate=1.0))
+    answer = service.client.post(f"/api/runs/{run_id}/cancel")
+    assert answer.status_code == 409
+    assert "succeeded" in answer.json()["problems"][0]["message"]
+
+
+def test_cancelling_an_unknown_run_is_not_found(unused_service: Service):
+    assert unused_service.client.post("/api/runs/nope/cancel").status_code == 404
+
+
+def test_the_history_of_a_run_is_told_oldest_first(service: Service):
+    [run_id] = service.launch()
+    service.claim()
+    events = service.get(f"/api/runs/{run_id}/events")["events"]
+    assert [(event["event"], event["state"]) for event in events] == [("created", "queued"), ("claimed", "running")]
+
+
+def test_curves_come_in_columns_and_go_on_from_the_cursor(service: Service):
+    [run_id] = service.launch()
+    held = service.claim()
+    append_metrics(service.database, held, [MetricPoint(step(1), {"test/success_rate": 0.5})])
+    first = service.get(f"/api/runs/{run_id}/metrics")
+    append_metrics(service.database, held, [MetricPoint(step(2), {"critic/task/loss": 0.1})])
+    second = service.get(f"/api/runs/{run_id}/metrics", params={"after": first["cursor"]})
+    assert (first["step"], first["values"]) == ([1], {"test/success_rate": [0.5]})
+    assert (second["step"], second["values"]) == ([2], {"critic/task/loss": [0.1]})
+    assert service.get(f"/api/runs/{run_id}/metrics", params={"after": second["cursor"]})["step"] == []
+
+
+def test_a_cursor_of_curves_below_zero_is_named(unused_service: Service):
+    answer = unused_service.client.get("/api/runs/nope/metrics", params={"after": -1})
+    assert problem_fields(answer) == ["after"]

@@ -1,0 +1,64 @@
+"""The API keeps to its own schema, whatever it is asked."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+import schemathesis
+from hypothesis import HealthCheck, Phase, settings
+from live_api import Service, new_client, serving
+from schemathesis.checks import (
+    content_type_conformance,
+    negative_data_rejection,
+    not_a_server_error,
+    response_schema_conformance,
+    status_code_conformance,
+)
+
+from backend.api.app import create_app
+from backend.store.settings import Settings, sqlite_url
+
+CHECKS = [
+    not_a_server_error,
+    status_code_conformance,
+    content_type_conformance,
+    response_schema_conformance,
+    negative_data_rejection,
+]
+
+EXAMPLES = 8
+"""Requests made up for each operation."""
+
+
+NOWHERE = Path("/nonexistent")
+"""The schema does not depend on where the data lies."""
+
+described = schemathesis.openapi.from_dict(
+    create_app(Settings(home=NOWHERE, database_url=sqlite_url(NOWHERE)), NOWHERE).openapi()
+)
+
+
+@pytest.fixture(scope="module")
+def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    """Return where an API listens that holds a run."""
+    home = tmp_path_factory.mktemp("described")
+    app = create_app(Settings(home=home, database_url=sqlite_url(home)), home / "dist")
+    with serving(app) as address, new_client(address) as client:
+        service = Service(client=client, settings=app.state.service.settings, database=app.state.service.database)
+        service.launch(method="her-sldr")
+        yield address
+
+
+@described.parametrize()
+@settings(
+    max_examples=EXAMPLES,
+    deadline=None,
+    database=None,
+    derandomize=True,
+    phases=[Phase.explicit, Phase.generate],
+    suppress_health_check=list(HealthCheck),
+)
+def test_every_answer_is_as_the_schema_says(address: str, case: schemathesis.Case):
+    case.call_and_validate(base_url=address, checks=CHECKS)
