@@ -18,6 +18,9 @@ from backend.store.tables import AnyRow, run_events, run_needs
 from backend.store.tables import runs as run_table
 from sldr_core.errors import InvalidConfig
 
+SHORTEST_ID_WORD = 4
+"""A shorter word is no beginning of an id: a search for seed 2 should not find every id with a 2."""
+
 
 @dataclass(frozen=True)
 class RunRow:
@@ -56,7 +59,7 @@ class RunFilter:
     method: str | None = None
     phase: str | None = None
     search: str | None = None
-    """Words that must all occur in id, task, method, phase, preset or state, or be the seed."""
+    """Words that must all occur in task, method, phase, preset or state, or be the seed or the beginning of the id."""
 
 
 @dataclass(frozen=True)
@@ -174,8 +177,10 @@ def _conditions(wanted: RunFilter) -> list[ColumnElement[bool]]:
 
 
 def _mentions(word: str) -> ColumnElement[bool]:
-    columns = ("id", "task", "method", "phase", "preset", "state")
+    columns = ("task", "method", "phase", "preset", "state")
     matches = [run_table.c[name].icontains(word, autoescape=True) for name in columns]
+    if len(word) >= SHORTEST_ID_WORD:
+        matches.append(run_table.c.id.istartswith(word, autoescape=True))
     return or_(*matches, cast(run_table.c.seed, String) == word)
 
 

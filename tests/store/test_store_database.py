@@ -1,0 +1,149 @@
+"""The store opens from nothing, for several processes at once, and stays light."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import threading
+import time
+from datetime import datetime
+
+import pytest
+from alembic.autogenerate import compare_metadata
+from alembic.config import Config
+from alembic.migration import MigrationContext
+from alembic.script import ScriptDirectory
+from sqlalchemy import Connection, select
+from sqlalchemy.exc import IntegrityError, StatementError
+from store_cases import queued_run
+
+from backend.store import database as database_module
+from backend.store import migrations
+from backend.store.database import Database, open_database
+from backend.store.errors import StoreUnavailable
+from backend.store.runs import get_run
+from backend.store.settings import Settings, load_settings
+from backend.store.tables import SCHEMA_REVISION, metadata, run_needs, runs
+
+OPEN = "from backend.store.database import open_database; from backend.store.settings import load_settings; "
+
+
+def python(code: str, settings: Settings) -> subprocess.Popen[str]:
+    return subprocess.Popen(
+        [sys.executable, "-c", OPEN + code],
+        env=settings.as_environment(),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+def test_migrations_make_exactly_the_tables(db: Database) -> None:
+    with db.read() as conn:
+        context = MigrationContext.configure(conn, opts={"compare_type": True, "compare_server_default": True})
+        assert compare_metadata(context, metadata) == []
+
+
+def test_the_tables_name_the_newest_migration() -> None:
+    config = Config()
+    config.set_main_option("script_location", str(migrations.__path__[0]))
+    config.set_main_option("path_separator", "os")
+
+    assert ScriptDirectory.from_config(config).get_current_head() == SCHEMA_REVISION
+
+
+def test_opening_again_keeps_what_is_there(db: Database, settings: Settings) -> None:
+    run_id = queued_run(db)
+    again = open_database(settings)
+
+    assert get_run(again, run_id).id == run_id
+    again.close()
+
+
+def test_several_processes_can_open_a_fresh_store_at_once(settings: Settings) -> None:
+    opened = [python("open_database(load_settings())", settings) for _ in range(4)]
+
+    assert [process.communicate(timeout=60)[1] for process in opened] == [""] * 4
+    assert [process.returncode for process in opened] == [0] * 4
+
+
+def test_a_reader_sees_one_state_while_a_writer_goes_on(db: Database) -> None:
+    with db.read() as conn:
+        before = conn.execute(select(runs.c.id)).scalars().all()
+        queued_run(db)
+        assert conn.execute(select(runs.c.id)).scalars().all() == before == []
+
+
+def test_rows_cannot_point_to_what_does_not_exist(db: Database) -> None:
+    with pytest.raises(IntegrityError), db.write() as conn:
+        conn.execute(run_needs.insert().values(run_id="nobody", needs_run_id="nothing"))
+
+
+def test_writers_wait_for_each_other(db: Database) -> None:
+    order: list[str] = []
+    entered = threading.Event()
+
+    def hold() -> None:
+        with db.write():
+            entered.set()
+            time.sleep(0.1)
+            order.append("first")
+
+    thread = threading.Thread(target=hold)
+    thread.start()
+    entered.wait()
+    with db.write():
+        order.append("second")
+    thread.join()
+
+    assert order == ["first", "second"]
+
+
+def _write_half(conn: Connection) -> None:
+    conn.execute(runs.update().values(reason="half done"))
+    raise RuntimeError
+
+
+def test_a_failed_transaction_leaves_nothing(db: Database) -> None:
+    run_id = queued_run(db)
+
+    with pytest.raises(RuntimeError), db.write() as conn:
+        _write_half(conn)
+
+    assert get_run(db, run_id).reason is None
+
+
+def test_a_store_that_cannot_be_used_says_so(settings: Settings, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(database_module, "BUSY_TIMEOUT_S", 0.05)
+    db = open_database(settings)
+
+    with db.write(), pytest.raises(StoreUnavailable, match="database is locked"), db.write():
+        pass
+    db.close()
+
+
+def test_times_without_a_zone_are_refused(db: Database) -> None:
+    with pytest.raises(StatementError, match="has no zone"), db.write() as conn:
+        conn.execute(runs.update().values(ended_at=datetime(2026, 1, 1)))
+
+
+def test_the_store_loads_neither_torch_nor_mujoco(settings: Settings) -> None:
+    modules = "launches, queue, runs, metrics, progress, files, workers, viewer_sessions"
+    code = f"from backend.store import {modules}; open_database(load_settings()); "
+    process = python(code + "import sys; print([m for m in ('torch', 'mujoco') if m in sys.modules])", settings)
+
+    assert process.communicate(timeout=60) == ("[]\n", "")
+
+
+def test_settings_come_from_the_environment(monkeypatch: pytest.MonkeyPatch, settings: Settings) -> None:
+    for name, value in settings.as_environment().items():
+        monkeypatch.setenv(name, value)
+
+    assert load_settings() == settings
+
+
+def test_without_an_address_the_store_lies_in_the_data_directory(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("SLDR_HOME", "/data/sldr")
+    monkeypatch.delenv("SLDR_DATABASE_URL", raising=False)
+
+    assert load_settings().database_url == "sqlite:////data/sldr/sldr.db"
