@@ -79,7 +79,7 @@ class Envs:
 
     def reset(self, ids: ArrayLike | None = None) -> Observation:
         """Start new episodes in simulations `ids` (all if None); the others are left as they are."""
-        chosen = self._ids(ids)
+        chosen = np.sort(self._ids(ids))
         starts = [self._starts.draw(self._rngs[index]) for index in chosen]
         self._goal[chosen] = [start.goal for start in starts]
         self.simulation.reset(
@@ -117,7 +117,7 @@ class Envs:
         return is_success(achieved, goal, self.spec.success_distance)
 
     def set_goal(self, goal: ArrayLike, ids: ArrayLike | None = None) -> None:
-        """Replace the goals of simulations `ids` by `[len(ids), G]` or `[G]`."""
+        """Replace the goals of simulations `ids` by `[len(ids), G]`, in the order of `ids`, or by one `[G]`."""
         self._goal[self._ids(ids)] = goal
 
     def state(self) -> dict[str, Any]:
@@ -138,7 +138,10 @@ class Envs:
             rng.bit_generator.state = rng_state
 
     def _ids(self, ids: ArrayLike | None) -> Ids:
-        return np.arange(self.num_envs) if ids is None else np.sort(np.atleast_1d(np.asarray(ids, dtype=np.int64)))
+        chosen = np.arange(self.num_envs) if ids is None else np.atleast_1d(np.asarray(ids, dtype=np.int64))
+        if np.unique(chosen).size < chosen.size or not set(chosen) <= set(range(self.num_envs)):
+            raise ValueError(f"ids have to be different numbers from 0 to {self.num_envs - 1}, got {chosen.tolist()}")
+        return chosen
 
     def _bystander_action(self) -> NDArray[np.float32]:
         size = self.spec.robot_action_size
