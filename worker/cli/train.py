@@ -32,13 +32,13 @@ class Arguments:
     """The task to learn, as `sldr list tasks` names it."""
     phase: Phase = "manipulation"
     """Who acts: the object on its own, or the robot."""
-    method: str | None = None
+    method: Annotated[str | None, tyro.conf.arg(metavar="STR", help_behavior_hint="")] = None
     """The method, as `sldr list methods` names it (default: her-sldr, for locomotion her)."""
     seed: int = 0
     """Seed of every random number."""
     preset: str = "quick"
     """The budget, as `sldr list presets` names it."""
-    out: Path | None = None
+    out: Annotated[Path | None, tyro.conf.arg(metavar="DIR", help_behavior_hint="")] = None
     """Directory for checkpoints, policies and metrics (default: one below runs/, named after the training)."""
     locomotion_model: Annotated[tyro.conf.UseAppendAction[tuple[Path, ...]], tyro.conf.arg(metavar="FILE")] = ()
     """The locomotion.pt of a locomotion training, where the method takes its reward from one."""

@@ -1,4 +1,4 @@
-"""`sldr viewer`: become the host of 3D views."""
+"""`sldr viewer`: become the host of 3D views, or show one policy; the options are those of `worker.viewer`."""
 
 from __future__ import annotations
 
@@ -6,14 +6,7 @@ import os
 import sys
 from collections.abc import Sequence
 
-import tyro
-
 
 def main(arguments: Sequence[str]) -> int:
     """Run the command."""
-    return tyro.cli(view, prog="sldr viewer", args=list(arguments))
-
-
-def view() -> int:
-    """Serve 3D views of policies to the page until told to end."""
-    os.execv(sys.executable, [sys.executable, "-m", "worker.viewer"])
+    os.execv(sys.executable, [sys.executable, "-m", "worker.viewer", *arguments])
