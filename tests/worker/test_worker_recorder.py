@@ -4,23 +4,25 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from backend.store import metrics
 from backend.store.claims import Claim
 from backend.store.database import Database
 from backend.store.errors import StaleFence
 from backend.store.files import find_file, list_files, register_file
 from backend.store.launches import LaunchOrder, launch
-from backend.store.metrics import MetricPoint, read_metrics
+from backend.store.metrics import MetricPoint, append_metrics, read_metrics
 from backend.store.queue import HandedBack, Succeeded, claim, finish
 from backend.store.runs import get_run
 from backend.store.settings import Settings
 from sldr_core.errors import BadFile, LocomotionMissing, TrainingDiverged
 from sldr_core.records import Step
 from worker.locomotion_files import find_locomotion_models
-from worker.recorder import StoreRecorder, WriteCurves
+from worker.recorder import Curves, StoreRecorder, WriteCurves, read_curves
 
 STEP = Step(cycle=1, epoch=1, env_steps=200, episodes=4, updates=4, wall_seconds=0.5)
 MODEL = b"weights"
@@ -135,23 +137,37 @@ def test_a_stale_attempt_cannot_register_files(db: Database, settings: Settings,
 def test_the_curves_of_every_attempt_are_written_at_the_end(
     db: Database, settings: Settings, locomotion_claim: Claim
 ) -> None:
-    written: list[tuple[str, list[int]]] = []
+    written: list[tuple[str, list[Step], dict]] = []
 
-    def write_curves(path: Path, run_title: str, points: Sequence[MetricPoint]) -> None:
+    def write_curves(path: Path, title: str, steps: Sequence[Step], values: Curves) -> None:
         path.touch()
-        written.append((run_title, [point.step.cycle for point in points]))
+        written.append((title, list(steps), dict(values)))
 
     with record(db, settings, locomotion_claim, write_curves) as recorder:
         recorder.log(STEP, {"test/success_rate": 0.75})
 
-    assert written == [("FetchPush her locomotion, seed 0", [1])]
+    assert written == [("FetchPush her locomotion, seed 0", [STEP], {"test/success_rate": [0.75]})]
     assert find_file(db, locomotion_claim.run_id, "curves-attempt-1.rrd").kind == "recording"
+
+
+def test_curves_of_several_pages_are_put_together(
+    db: Database, locomotion_claim: Claim, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(metrics, "READ_LIMIT", 2)
+    logged = [{"a/x": 1.0}, {"a/x": 2.0}, {"a/y": 3.0}, {"a/x": 4.0}, {"a/y": 5.0}]
+    steps = [replace(STEP, cycle=cycle) for cycle in range(1, 6)]
+    append_metrics(db, locomotion_claim, [MetricPoint(*point) for point in zip(steps, logged, strict=True)])
+
+    assert read_curves(db, locomotion_claim.run_id) == (
+        steps,
+        {"a/x": [1.0, 2.0, None, 4.0, None], "a/y": [None, None, 3.0, None, 5.0]},
+    )
 
 
 def test_a_training_does_not_fail_with_its_rerun_file(
     db: Database, settings: Settings, locomotion_claim: Claim, caplog: pytest.LogCaptureFixture
 ) -> None:
-    def write_curves(path: Path, run_title: str, points: Sequence[MetricPoint]) -> None:
+    def write_curves(path: Path, title: str, steps: Sequence[Step], values: Curves) -> None:
         raise RuntimeError("no curves today")
 
     with record(db, settings, locomotion_claim, write_curves) as recorder:
