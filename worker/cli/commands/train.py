@@ -8,6 +8,7 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from types import FrameType
 from typing import Annotated
@@ -63,11 +64,12 @@ def _train(config: TrainConfig, directory: Path, models: Sequence[Path], command
 
     console = Console(stderr=True)
     recorder = DirectoryRecorder(directory)
-    console.print(f"Training {config.task} ({config.phase}, {config.method}, seed {config.seed}) into {directory}")
+    say = partial(console.print, highlight=False, soft_wrap=True)
+    say(f"Training {config.task} ({config.phase}, {config.method}, seed {config.seed}) into {directory}")
 
     def stop() -> None:
         recorder.request_stop("pause")
-        console.print("Stopping: writing a checkpoint first. Once more ends at once, without one.")
+        say("Stopping: writing a checkpoint first. Once more ends at once, without one.")
 
     with ShownProgress(config, console) as progress, _stopping(stop):
         result = train(config, ShownRecorder(recorder, progress), models)
