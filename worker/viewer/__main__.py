@@ -14,8 +14,8 @@ from backend.store.database import open_database
 from backend.store.errors import StoreUnavailable
 from backend.store.settings import Settings, load_settings
 from sldr_core.errors import SldrError
-from worker.viewer.entry import begin_session
 from worker.viewer.host import Host
+from worker.viewer.process import serve_session
 
 POLL_S = 0.2
 """Time between two looks into the store [s]."""
@@ -52,7 +52,7 @@ def host_sessions(settings: Settings) -> None:
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda *_: stop.set())
     database = open_database(settings)
-    host = Host(database, settings, target=begin_session)
+    host = Host(database, settings, target=serve_session)
     host.begin()
     pictures = _draw_pictures(settings.home)
     try:
