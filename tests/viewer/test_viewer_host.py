@@ -9,13 +9,16 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import httpx
+import msgspec
 import psutil
 import pytest
 import viewer_targets
-import websockets.sync.client
-from viser import __version__ as viser_version
+import viser
+from websockets.sync.client import ClientConnection, connect
+from websockets.typing import Subprotocol
 
 from backend.store import viewer_sessions
 from backend.store.database import Database, open_database
@@ -53,7 +56,7 @@ def run_id(database: Database, settings: Settings, policy_path: Path) -> str:
 def make_host(database: Database, settings: Settings) -> Iterator[Callable[..., Host]]:
     hosts: list[Host] = []
 
-    def make(target: Callable[..., None], **limits: float) -> Host:
+    def make(target: Callable[..., None], **limits: Any) -> Host:
         host = Host(database, settings, target=target, limits=Limits(**limits), host_id=f"host-{len(hosts)}")
         host.begin()
         hosts.append(host)
@@ -75,11 +78,27 @@ def tick_until(host: Host, database: Database, session_id: str, *states: str) ->
     raise AssertionError(f"still {session.state}: {session.message}")
 
 
-def watch(port: int) -> websockets.sync.client.ClientConnection:
-    """Connect as the page does."""
-    return websockets.sync.client.connect(
-        f"ws://127.0.0.1:{port}", subprotocols=[f"viser-v{viser_version}"], compression=None, max_size=None, proxy=None
+def tick_while(host: Host, waits: Callable[[], bool]) -> None:
+    deadline = time.monotonic() + PATIENCE_S
+    while waits():
+        assert time.monotonic() < deadline
+        host.tick()
+        time.sleep(0.05)
+
+
+def watch(port: int | None) -> ClientConnection:
+    """Connect and say where the camera is, as the page does."""
+    page = connect(
+        f"ws://127.0.0.1:{port}",
+        subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],
+        compression=None,
+        max_size=None,
+        proxy=None,
     )
+    pose = {"wxyz": (1, 0, 0, 0), "position": (3, 0, 1), "look_at": (0, 0, 0), "up_direction": (0, 0, 1)}
+    lens = {"fov": 0.6, "near": 0.01, "far": 100.0, "image_height": 480, "image_width": 640}
+    page.send(msgspec.msgpack.encode({"type": "ViewerCameraMessage", **pose, **lens}))
+    return page
 
 
 def test_a_session_is_served_to_a_page_and_ends_after_the_last_one_left(make_host, database, run_id):
@@ -89,10 +108,12 @@ def test_a_session_is_served_to_a_page_and_ends_after_the_last_one_left(make_hos
     assert session.state == "ready", session.message
     assert session.message == "Live: the object moving itself on FetchPush, always with the newest policy of the run."
     assert "<html" in httpx.get(f"http://127.0.0.1:{session.port}/", trust_env=False).text.lower()
+    process = host.served[asked.id].process.pid
     with watch(session.port) as page:
         assert len(page.recv(timeout=10)) > 0
-    process = host.served[asked.id].process.pid
-    host.served[asked.id].was_watched = True  # a client counts once it has sent its camera, which only a browser does
+        tick_while(host, lambda: host.served[asked.id].clients == 0)
+        seen = sum(len(page.recv(timeout=10)) for _ in range(20))
+    assert seen > 0
     ended = tick_until(host, database, asked.id, "ended")
     assert ended.message == "Nobody watched for 0 s."
     assert not psutil.pid_exists(process)
@@ -155,10 +176,7 @@ def test_a_host_full_of_watched_sessions_says_so(make_host, database, run_id):
     host = make_host(viewer_targets.serve_one_client, sessions=1)
     first = viewer_sessions.request_session(database, run_id).id
     tick_until(host, database, first, "ready")
-    deadline = time.monotonic() + PATIENCE_S
-    while not host.served[first].clients:
-        assert time.monotonic() < deadline
-        host.tick()
+    tick_while(host, lambda: host.served[first].clients == 0)
     second = viewer_sessions.request_session(database, run_id).id
     failed = tick_until(host, database, second, "failed")
     assert "being watched; close one" in (failed.message or "")
