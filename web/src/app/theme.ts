@@ -44,7 +44,12 @@ export const theme = createTheme({
   respectReducedMotion: true,
   cursorType: 'pointer',
   components: {
-    InputWrapper: { styles: { description: { fontSize: 12, lineHeight: 1.4, color: 'var(--faint)' } } },
+    InputWrapper: {
+      styles: {
+        description: { fontSize: 12, lineHeight: 1.4, color: 'var(--faint)' },
+        error: { fontSize: 12, color: 'var(--state-failed)' },
+      },
+    },
     Button: { defaultProps: { size: 'sm' } },
     TextInput: { defaultProps: { size: 'sm' } },
     Select: { defaultProps: { size: 'sm', allowDeselect: false } },
@@ -55,8 +60,16 @@ export const theme = createTheme({
 /** Colours that Mantine does not know: the page's ground and the run states. */
 export const cssVariables: CSSVariablesResolver = () => ({
   variables: {},
-  light: { '--mantine-color-body': '#f7f8fa', '--mantine-color-placeholder': '#767d88', ...stateVariables('light') },
-  dark: { '--mantine-color-body': '#131519', '--mantine-color-placeholder': '#858d99', ...stateVariables('dark') },
+  light: {
+    '--mantine-color-body': 'var(--ground)',
+    '--mantine-color-placeholder': '#767d88',
+    ...stateVariables('light'),
+  },
+  dark: {
+    '--mantine-color-body': 'var(--ground)',
+    '--mantine-color-placeholder': '#858d99',
+    ...stateVariables('dark'),
+  },
 });
 
 function stateVariables(scheme: Scheme): Record<string, string> {

@@ -5,6 +5,7 @@ import { getRouteApi } from '@tanstack/react-router';
 import type { Choices } from '@/client/schema.gen';
 import { SentencePanel } from '@/components/sentence-panel';
 import { sentence } from '@/lib/api';
+import { formatName } from '@/lib/format';
 import { choicesQuery } from '@/lib/queries';
 import { useLaunch } from './api/launch-runs';
 import { AdvancedSettings } from './components/advanced-settings';
@@ -87,7 +88,9 @@ function Form({ choices }: { choices: Choices }) {
       <LaunchPlanPanel
         form={form}
         problems={[...form.otherProblems, ...refused.others]}
-        hasFieldProblems={Object.keys(problems).length > 0}
+        fieldProblems={Object.entries(problems).map(
+          ([field, text]) => `${formatName(field.split('.').at(-1) ?? field)}: ${text}`,
+        )}
         isLaunching={launching.isPending}
       />
     </form>

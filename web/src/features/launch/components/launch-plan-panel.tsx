@@ -13,11 +13,12 @@ const MOST_ROWS = 12;
 interface Props {
   form: LaunchForm;
   problems: readonly string[];
-  hasFieldProblems: boolean;
+  /** Problems that are also shown at their fields, which may be out of sight. */
+  fieldProblems: readonly string[];
   isLaunching: boolean;
 }
 
-export function LaunchPlanPanel({ form, problems, hasFieldProblems, isLaunching }: Props) {
+export function LaunchPlanPanel({ form, problems, fieldProblems, isLaunching }: Props) {
   const { plan, isPlanning } = form;
   const added = plan?.runs.filter((run) => run.reused_run_id === null).length;
   return (
@@ -27,8 +28,13 @@ export function LaunchPlanPanel({ form, problems, hasFieldProblems, isLaunching 
         {plan ? (
           <Plan plan={plan} />
         ) : (
-          <p className="faint">{hasFieldProblems ? 'Mend the marked fields first.' : 'Looking…'}</p>
+          <p className="faint">{fieldProblems.length > 0 ? 'Mend the marked fields first:' : 'Looking…'}</p>
         )}
+        {fieldProblems.map((problem) => (
+          <p key={problem} className="problem">
+            {problem}
+          </p>
+        ))}
         {problems.map((problem) => (
           <p key={problem} className="problem" role="alert">
             {problem}
@@ -40,7 +46,7 @@ export function LaunchPlanPanel({ form, problems, hasFieldProblems, isLaunching 
         fullWidth
         size="md"
         loading={isLaunching}
-        disabled={form.launch === null || plan === undefined || isPlanning || hasFieldProblems}
+        disabled={form.launch === null || plan === undefined || isPlanning || fieldProblems.length > 0}
       >
         {added === undefined ? 'Launch' : added === 0 ? 'Open what exists' : `Launch ${formatPlural(added, 'run')}`}
       </Button>

@@ -15,6 +15,7 @@ import type { RunSearch } from '../search';
 import { ChartControls } from './chart-controls';
 import classes from './charts.module.css';
 import { type ChartView, MetricChart } from './metric-chart';
+import { WaitingPanel } from './waiting-panel';
 
 interface Props {
   run: RunDetail;
@@ -99,6 +100,9 @@ function Section({ name, children }: { name: string; children: React.ReactNode[]
 }
 
 function NoCurves({ run }: { run: RunDetail }) {
+  if (run.state === 'blocked' && run.locomotion_run_id !== null) {
+    return <WaitingPanel run={run} locomotionId={run.locomotion_run_id} />;
+  }
   const words: Partial<Record<RunDetail['state'], string>> = {
     blocked: 'The run waits for its locomotion model; its curves appear here once it trains.',
     queued: 'The run waits for a free worker; its curves appear here once it trains.',

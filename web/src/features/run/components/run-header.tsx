@@ -5,6 +5,7 @@ import type { RunDetail } from '@/client/schema.gen';
 import { AnchorLink, ButtonLink } from '@/components/anchor-link';
 import { Freshness } from '@/components/freshness';
 import { Icon } from '@/components/icon';
+import { Reason } from '@/components/reason';
 import { StateBadge } from '@/components/state-badge';
 import { hasEnded } from '@/lib/states';
 import { filesQuery } from '../api/run-records';
@@ -53,12 +54,12 @@ function Notes({ run }: { run: RunDetail }) {
       </span>
       {run.reason !== null && (
         <span className={classes.reason} data-state={run.state} role={run.state === 'failed' ? 'alert' : undefined}>
-          {run.reason}
+          <Reason text={run.reason} runIds={run.needs} />
         </span>
       )}
-      {run.locomotion_run_id !== null && (
+      {run.locomotion_run_id !== null && run.state !== 'blocked' && (
         <span className="faint">
-          {run.state === 'blocked' ? 'Waits for ' : 'Learns from '}
+          {'Learns from '}
           <AnchorLink to="/runs/$runId" params={{ runId: run.locomotion_run_id }} fz="inherit">
             its locomotion run
           </AnchorLink>

@@ -1,6 +1,6 @@
 /** Why a run waits or ended so, with the way to the run it waits for. */
 import type { RunSummary } from '@/client/schema.gen';
-import { AnchorLink } from '@/components/anchor-link';
+import { Reason } from '@/components/reason';
 import { formatShare } from '@/lib/format';
 import classes from './runs.module.css';
 
@@ -10,24 +10,20 @@ export function hasNote(run: RunSummary): boolean {
 }
 
 export function RunNote({ run, runs }: { run: RunSummary; runs: readonly RunSummary[] }) {
-  const links = run.state === 'blocked' ? run.needs : [];
+  const waits = run.needs.map((id) => `Waits for the locomotion run ${id}.`).join(' ');
   return (
     <span className={classes.noteText} data-state={run.state}>
-      {run.reason && <span>{run.reason}</span>}
-      {links.map((id) => (
-        <span key={id} className={classes.waits}>
-          {run.reason ? '→ ' : 'Waits for '}
-          <AnchorLink to="/runs/$runId" params={{ runId: id }} fz="inherit">
-            {needName(runs.find((other) => other.id === id))}
-          </AnchorLink>
-        </span>
-      ))}
+      <Reason
+        text={run.reason ?? waits}
+        runIds={run.needs}
+        describe={(id) => standing(runs.find((other) => other.id === id))}
+      />
     </span>
   );
 }
 
-function needName(run: RunSummary | undefined): string {
-  if (run === undefined) return 'its locomotion run';
+function standing(run: RunSummary | undefined): string {
+  if (run === undefined) return '';
   const share = run.state === 'running' && run.progress ? `, ${formatShare(run.progress.fraction)}` : '';
-  return `the locomotion run of seed ${run.seed} (${run.state}${share})`;
+  return ` (${run.state}${share})`;
 }
