@@ -44,4 +44,4 @@ def wilson_interval(successes: int, episodes: int) -> tuple[float, float]:
     rate, z2 = successes / episodes, CONFIDENCE_Z**2
     centre = (rate + z2 / (2 * episodes)) / (1 + z2 / episodes)
     half = CONFIDENCE_Z / (1 + z2 / episodes) * math.sqrt(rate * (1 - rate) / episodes + z2 / (4 * episodes**2))
-    return max(0.0, centre - half), min(1.0, centre + half)
+    return max(0.0, min(rate, centre - half)), min(1.0, max(rate, centre + half))
