@@ -1,0 +1,117 @@
+"""Trainings that end within a second, and how two of them are compared."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import torch
+
+from sldr_core.config import TASKS, Phase, TrainConfig
+from sldr_core.config.tasks import FETCH_PUSH
+from sldr_core.nets.locomotion_model import LocomotionModel, LocomotionNets, Measured
+from sldr_core.presets import make_config
+from sldr_core.training import DirectoryRecorder, TrainResult, train
+from sldr_core.training.build import Parts, build_training
+from sldr_core.training.cycle import collect_random
+
+TIMINGS = ("speed/", "progress/seconds_left")
+"""Metrics that tell of the machine, not of the training."""
+
+TINY = {
+    "loop": {
+        "episodes_per_cycle": 2,
+        "updates_per_cycle": 2,
+        "updates_per_sync": 2,
+        "batch_size": 16,
+        "test_episodes": 3,
+    },
+    "agent": {"hidden_sizes": [8, 8]},
+    "replay": {"capacity": 160},
+}
+"""Laid over the smoke preset: four cycles in a fraction of a second; the replay wraps around after nine."""
+
+SHORT_PUSH = replace(FETCH_PUSH, name="ShortPush", episode_length=8)
+"""FetchPush with episodes that are over soon; `conftest.py` makes it known."""
+
+
+CODE_OF_A_TRAINING = """
+import json, sys
+from pathlib import Path
+from small_training import know_short_push
+from sldr_core.config import config_from_dict
+from sldr_core.training import DirectoryRecorder, train
+know_short_push()
+train(config_from_dict(json.loads(sys.argv[1])), DirectoryRecorder(Path(sys.argv[2])))
+"""
+"""What a process runs that trains a config, in JSON, in a directory; its two arguments."""
+
+
+def know_short_push() -> None:
+    """Make the short task known to this process."""
+    TASKS[SHORT_PUSH.name] = SHORT_PUSH
+
+
+def tiny_config(phase: Phase = "locomotion", method: str = "her", seed: int = 0, **loop: Any) -> TrainConfig:
+    """Return a config of the smallest training, with these settings of its loop."""
+    overrides = {**TINY, "loop": {**TINY["loop"], **loop}}
+    return make_config(SHORT_PUSH.name, phase, method, seed, "smoke", overrides)
+
+
+def run(config: TrainConfig, directory: Path, models: tuple[Path, ...] = ()) -> TrainResult:
+    """Train in `directory`, going on from its checkpoint."""
+    return train(config, DirectoryRecorder(directory), models)
+
+
+def collected_parts(config: TrainConfig, directory: Path, models: tuple[Path, ...] = ()) -> Parts:
+    """Return a training that has collected its first episodes and learnt nothing."""
+    parts = build_training(config, directory, models)
+    collect_random(parts, lambda: None)
+    return parts
+
+
+def save_untrained_model(path: Path, task: str = SHORT_PUSH.name, spoil: float = 0.0) -> Path:
+    """Write a locomotion model that has learnt nothing; `spoil` is added to every weight of its critic."""
+    config = make_config(task, "locomotion", "her", 0, "smoke", {"agent": TINY["agent"]})
+    generator = torch.Generator().manual_seed(3)
+    nets = LocomotionNets(config, generator)
+    for normalizer in (nets.normalizer, nets.transition_normalizer):
+        normalizer.update(torch.randn(100, normalizer.mean.numel(), generator=generator))
+    for weight in nets.critic.parameters():
+        weight.data += spoil
+    LocomotionModel(nets, config, Measured(0.97, 3)).save(path)
+    return path
+
+
+def metrics_of(directory: Path) -> list[dict[str, Any]]:
+    """Return every logged line, without what depends on the clock."""
+    lines = [json.loads(line) for line in (directory / "metrics.jsonl").read_text().splitlines()]
+    for line in lines:
+        line.pop("wall_seconds")
+        line["metrics"] = {name: value for name, value in line["metrics"].items() if not name.startswith(TIMINGS)}
+    return lines
+
+
+def state_of(directory: Path) -> dict[str, Any]:
+    """Return everything in the checkpoint, as plain values, without what depends on the clock."""
+    content = torch.load(directory / "checkpoint.pt", weights_only=True)
+    content["counters"].pop("wall_seconds")
+    return _plain(content)
+
+
+def assert_same_training(first: Path, second: Path) -> None:
+    """Compare metrics, checkpoints and replay files of two runs, bit for bit."""
+    assert metrics_of(first) == metrics_of(second)
+    ours, theirs = state_of(first), state_of(second)
+    assert {name for name in ours if ours[name] != theirs[name]} == set()
+    assert (first / "replay.bin").read_bytes() == (second / "replay.bin").read_bytes()
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, torch.Tensor):
+        return (str(value.dtype), value.tolist())
+    if isinstance(value, dict):
+        return {name: _plain(part) for name, part in value.items()}
+    return [_plain(part) for part in value] if isinstance(value, list | tuple) else value

@@ -1,0 +1,27 @@
+"""The whole library at once: an object learns to move itself to its goal."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from small_training import run
+
+from sldr_core.nets.locomotion_model import load_locomotion_model
+from sldr_core.presets import make_config
+from sldr_core.training import evaluate
+
+LEARNT = 0.95
+"""Test success that counts as learnt: the gate of the manipulation runs."""
+
+
+@pytest.mark.learning
+@pytest.mark.timeout(900)
+def test_an_object_learns_to_move_itself_to_its_goal(tmp_path: Path) -> None:
+    result = run(make_config("FetchPush", "locomotion", "her", 0, "quick"), tmp_path)
+
+    assert result.best_success_rate is not None
+    assert result.best_success_rate >= LEARNT
+    assert load_locomotion_model(tmp_path / "locomotion.pt").measured.success_rate == result.best_success_rate
+    fresh = evaluate(tmp_path / "locomotion.pt", episodes=200, seed=12345)
+    assert fresh.success_rate >= LEARNT

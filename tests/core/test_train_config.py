@@ -1,0 +1,226 @@
+"""A config is checked where it enters, explains itself, and is the same everywhere."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from copy import deepcopy
+from typing import Any
+
+import pytest
+
+from sldr_core.config import (
+    METHODS,
+    PHASES,
+    TrainConfig,
+    config_from_dict,
+    config_hash,
+    config_schema,
+    config_to_dict,
+    find_method,
+    find_task,
+)
+from sldr_core.errors import InvalidConfig, UnknownName
+from sldr_core.presets import PRESETS, find_preset, make_config, make_locomotion_config
+
+TIMEOUT_S = 60
+
+
+def leaves(values: dict[str, Any], path: tuple[str, ...] = ()) -> dict[tuple[str, ...], Any]:
+    """Return every setting by its path."""
+    found: dict[tuple[str, ...], Any] = {}
+    for name, value in values.items():
+        found.update(leaves(value, (*path, name)) if isinstance(value, dict) else {(*path, name): value})
+    return found
+
+
+def changed(path: tuple[str, ...], value: Any) -> dict[str, Any]:
+    """Return the default config as plain values with one setting replaced."""
+    values = config_to_dict(TrainConfig())
+    group = values
+    for name in path[:-1]:
+        group = group[name]
+    group[path[-1]] = value
+    return values
+
+
+OTHER_WORDS = {
+    "phase": ("locomotion", {"method": "her"}),
+    "method": ("her", {}),
+    "locomotion_robot": ("still", {}),
+    "device": ("cpu", {}),
+    "precision": ("bfloat16", {}),
+}
+ONLY_ONE_VALUE = {("task",), ("sldr", "reward")}
+SETTINGS = {path: value for path, value in leaves(config_to_dict(TrainConfig())).items() if path not in ONLY_ONE_VALUE}
+
+
+def other_value(path: tuple[str, ...], value: Any) -> Any:
+    if isinstance(value, str):
+        return OTHER_WORDS[path[-1]][0]
+    if isinstance(value, list):
+        return value[:-1]
+    return value + 1 if isinstance(value, int) else value * 0.9 + 0.001
+
+
+@pytest.mark.parametrize("path", SETTINGS, ids=".".join)
+def test_every_setting_changes_the_hash(path: tuple[str, ...]) -> None:
+    values = changed(path, other_value(path, SETTINGS[path]))
+    values.update(OTHER_WORDS.get(path[-1], (None, {}))[1])
+
+    assert config_hash(config_from_dict(values)) != config_hash(TrainConfig())
+
+
+def test_the_hash_is_the_same_in_every_process() -> None:
+    code = "from sldr_core.config import *; print(config_hash(TrainConfig(seed=7)))"
+    arguments = [sys.executable, "-c", code]
+
+    printed = subprocess.run(arguments, capture_output=True, text=True, timeout=TIMEOUT_S, check=True).stdout
+
+    assert printed.strip() == config_hash(TrainConfig(seed=7))
+
+
+@pytest.mark.parametrize("preset", PRESETS)
+@pytest.mark.parametrize("phase", PHASES)
+def test_a_config_survives_json(preset: str, phase: Any) -> None:
+    config = make_config("FetchPush", phase, "her", 3, preset)
+
+    again = config_from_dict(json.loads(json.dumps(config_to_dict(config))))
+
+    assert again == config
+    assert config_hash(again) == config_hash(config)
+
+
+def test_every_setting_says_what_it_is_and_what_it_is_by_default() -> None:
+    schema = config_schema()
+    groups = {"TrainConfig": schema, **schema["$defs"]}
+    silent = [
+        f"{group}.{name}"
+        for group, part in groups.items()
+        for name, setting in part["properties"].items()
+        if not setting.get("description") or ("default" not in setting and "$ref" not in setting)
+    ]
+
+    assert silent == []
+    assert len(leaves(config_to_dict(TrainConfig()))) == sum(
+        "$ref" not in setting for part in groups.values() for setting in part["properties"].values()
+    )
+
+
+@pytest.mark.parametrize(
+    ("values", "setting", "problem"),
+    [
+        ({"sead": 1}, "sead", "Unexpected keyword argument"),
+        ({"loop": {"batch_sise": 1}}, "loop.batch_sise", "Unexpected keyword argument"),
+        ({"loop": {"batch_size": -1}}, "loop.batch_size", "greater than 0 (got -1)"),
+        ({"loop": {"batch_size": 1.5}}, "loop.batch_size", "(got 1.5)"),
+        ({"agent": {"gamma": 1.0}}, "agent.gamma", "less than 1 (got 1.0)"),
+        ({"agent": {"learning_rate": float("nan")}}, "agent.learning_rate", "(got nan)"),
+        ({"agent": {"action_l2": float("inf")}}, "agent.action_l2", "finite number (got inf)"),
+        ({"agent": {"hidden_sizes": []}}, "agent.hidden_sizes", "at least 1 item"),
+        ({"agent": {"hidden_sizes": [32, 0]}}, "agent.hidden_sizes.1", "greater than 0 (got 0)"),
+        ({"exploration": {"noise_std": "much"}}, "exploration.noise_std", "(got 'much')"),
+        ({"replay": {"relabel_probability": 1.01}}, "replay.relabel_probability", "(got 1.01)"),
+        ({"compute": {"device": "tpu"}}, "compute.device", "'auto', 'cpu' or 'cuda' (got 'tpu')"),
+        ({"phase": "sleep"}, "phase", "'locomotion' or 'manipulation' (got 'sleep')"),
+        ({"seed": -1}, "seed", "(got -1)"),
+        ({"seed": 2**31}, "seed", "less than 2147483648"),
+        ({"task": "FetchPus"}, "task", "Did you mean 'FetchPush'?"),
+        ({"method": "her-sldrr"}, "method", "Did you mean 'her-sldr'?"),
+        ({"phase": "locomotion"}, "method", "a locomotion run learns from the sparse reward alone; use 'her'."),
+        ({"replay": {"capacity": 3799}}, "replay.capacity", "3799 transitions cannot hold two cycles of 1900"),
+    ],
+    ids=lambda value: ".".join(value) if isinstance(value, dict) else None,
+)
+def test_a_setting_that_cannot_work_is_named(values: dict[str, Any], setting: str, problem: str) -> None:
+    with pytest.raises(InvalidConfig) as err:
+        config_from_dict(values)
+
+    assert list(err.value.problems) == [setting]
+    assert problem in err.value.problems[setting]
+    assert str(err.value).startswith(f"{setting}: ")
+
+
+def test_all_that_cannot_work_is_named_at_once() -> None:
+    with pytest.raises(InvalidConfig) as err:
+        config_from_dict({"seed": -1, "loop": {"epochs": 0}, "agent": {"gamma": 2}})
+
+    assert set(err.value.problems) == {"seed", "loop.epochs", "agent.gamma"}
+
+
+def test_a_replay_of_exactly_two_cycles_is_enough() -> None:
+    assert config_from_dict({"replay": {"capacity": 3800}}).replay.capacity == 3800
+
+
+@pytest.mark.parametrize(
+    ("find", "name", "near"),
+    [(find_task, "fetchpush", "FetchPush"), (find_method, "hersldr", "her-sldr"), (find_preset, "smoky", "smoke")],
+)
+def test_an_unknown_name_gets_the_nearest_and_the_whole_list(find: Any, name: str, near: str) -> None:
+    with pytest.raises(UnknownName, match=rf"is called '{name}'\. Did you mean '{near}'\? There are: .*{near}"):
+        find(name)
+
+
+def test_task_then_method_then_preset_then_overrides_decide() -> None:
+    task = find_task("FetchPush")
+    config = make_config("FetchPush", "locomotion", "ddpg", 5, "quick", {"loop": {"epochs": 3}})
+
+    assert (config.task, config.phase, config.method, config.seed) == ("FetchPush", "locomotion", "ddpg", 5)
+    assert config.agent.gamma == task.locomotion_gamma
+    assert config.exploration.noise_std == 0.05
+    assert config.replay.relabel_probability == METHODS["ddpg"].relabel_probability == 0.0
+    assert config.loop.batch_size == PRESETS["quick"].locomotion["loop"]["batch_size"]
+    assert config.loop.epochs == 3
+    assert make_config("FetchPush", "locomotion", "her", 0, "quick").loop.epochs == 10
+    assert make_config("FetchPush", "locomotion", "her", 0, "paper").loop.epochs == task.paper_locomotion_epochs
+
+
+def test_the_paper_preset_is_the_papers_protocol() -> None:
+    config = make_config("FetchPush", "manipulation", "her-sldr", 0, "paper")
+
+    loop = config.loop
+    assert (loop.epochs, loop.cycles_per_epoch, loop.episodes_per_cycle) == (50, 50, 38)
+    assert (loop.updates_per_cycle, loop.updates_per_sync, loop.batch_size) == (40, 40, 4864)
+    assert (loop.test_episodes, loop.stop_after_tests) == (380, 0)
+    assert (config.agent.gamma, config.agent.hidden_sizes) == (0.98, (256, 256, 256))
+    assert (config.agent.learning_rate, config.agent.target_rate, config.agent.action_l2) == (1e-3, 0.05, 1.0)
+    assert (config.replay.capacity, config.replay.relabel_probability) == (1_000_000, 0.8)
+
+
+def test_making_configs_changes_no_preset_and_no_override() -> None:
+    presets, overrides = deepcopy(PRESETS), {"loop": {"epochs": 3}, "agent": {"hidden_sizes": [4]}}
+    given = deepcopy(overrides)
+
+    for preset in PRESETS:
+        for phase in PHASES:
+            make_config("FetchPush", phase, "her", 0, preset, overrides)
+
+    assert presets == PRESETS
+    assert overrides == given
+
+
+@pytest.mark.parametrize(
+    ("overrides", "setting"),
+    [({"loop": 3}, "loop"), ({"loop": {"batch": 3}}, "loop.batch"), ({"lop": {"epochs": 3}}, "lop")],
+)
+def test_an_override_that_fits_nothing_is_named(overrides: dict[str, Any], setting: str) -> None:
+    with pytest.raises(InvalidConfig) as err:
+        make_config("FetchPush", "manipulation", "her", 0, "quick", overrides)
+
+    assert list(err.value.problems) == [setting]
+
+
+def test_every_seed_shares_one_locomotion_run() -> None:
+    manipulation = [make_config("FetchPush", "manipulation", "her-sldr", seed, "quick") for seed in range(3)]
+
+    locomotion = {config_hash(make_locomotion_config(config, "quick")) for config in manipulation}
+
+    assert len(locomotion) == 1
+    config = make_locomotion_config(manipulation[2], "quick")
+    assert (config.phase, config.method, config.seed, config.needs_locomotion) == ("locomotion", "her", 0, False)
+
+
+def test_a_config_cannot_be_changed() -> None:
+    with pytest.raises(AttributeError):
+        TrainConfig().seed = 3  # pyright: ignore[reportAttributeAccessIssue]

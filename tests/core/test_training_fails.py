@@ -1,0 +1,128 @@
+"""What would fail again is told in one sentence, and costs nobody their files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+import torch
+from small_training import run, save_untrained_model, tiny_config
+
+from sldr_core.errors import BadFile, DiskTooFull, InvalidConfig, LocomotionMissing, TrainingDiverged
+from sldr_core.nets.transitions import Transitions
+from sldr_core.presets import make_config
+from sldr_core.streams import TaskStream
+
+
+@pytest.fixture
+def trained(tmp_path: Path) -> Path:
+    directory = tmp_path / "run"
+    run(tiny_config(), directory)
+    return directory
+
+
+def contents_of(directory: Path) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in directory.iterdir()}
+
+
+def test_a_checkpoint_of_another_config_is_refused_and_nothing_is_touched(trained: Path) -> None:
+    before = contents_of(trained)
+    other = tiny_config(seed=1, episodes_per_cycle=3)
+
+    with pytest.raises(BadFile, match="was made by another config than this run's; use another directory"):
+        run(other, trained)
+
+    assert contents_of(trained) == before
+
+
+@pytest.mark.parametrize("length", [0, 1, 1000, -1])
+def test_a_checkpoint_cut_short_is_refused(trained: Path, length: int) -> None:
+    checkpoint = trained / "checkpoint.pt"
+    checkpoint.write_bytes(checkpoint.read_bytes()[:length])
+
+    with pytest.raises(BadFile, match=r"checkpoint\.pt is corrupt or no file of ours"):
+        run(tiny_config(), trained)
+
+
+def test_a_checkpoint_that_lacks_a_part_is_refused(trained: Path) -> None:
+    content = torch.load(trained / "checkpoint.pt", weights_only=True)
+    del content["envs"]
+    torch.save(content, trained / "checkpoint.pt")
+
+    with pytest.raises(BadFile, match=r"checkpoint\.pt is no whole checkpoint \('envs'\)"):
+        run(tiny_config(), trained)
+
+
+@pytest.mark.parametrize("length", [None, 1000])
+def test_a_checkpoint_without_its_replay_file_is_refused_again_and_again(trained: Path, length: int | None) -> None:
+    replay = trained / "replay.bin"
+    kept = replay.read_bytes()[:length]
+    replay.unlink()
+    if length:
+        replay.write_bytes(kept)
+
+    for _ in range(2):
+        with pytest.raises(BadFile, match=r"needs .*replay\.bin, which is gone or was cut short"):
+            run(tiny_config(), trained)
+
+
+def test_a_method_that_needs_a_locomotion_model_says_how_to_get_one(tmp_path: Path) -> None:
+    config = make_config("FetchPush", "manipulation", "her-sldr", 0, "smoke")
+
+    with pytest.raises(LocomotionMissing, match="needs a locomotion model of FetchPush: train one with `sldr train"):
+        run(config, tmp_path)
+
+
+def test_a_locomotion_model_that_is_not_there_is_named(tmp_path: Path) -> None:
+    missing = tmp_path / "gone" / "locomotion.pt"
+
+    with pytest.raises(BadFile, match=rf"There is no file {missing}; give the path of a locomotion model"):
+        run(tiny_config("manipulation", "her-sldr"), tmp_path, (missing,))
+
+
+def test_a_locomotion_model_of_another_task_is_refused(tmp_path: Path) -> None:
+    model = save_untrained_model(tmp_path / "model.pt", task="FetchPush")
+
+    with pytest.raises(BadFile, match="is a locomotion model of FetchPush; ShortPush needs one of its own"):
+        run(tiny_config("manipulation", "her-sldr"), tmp_path, (model,))
+
+
+def test_a_policy_is_no_locomotion_model(trained: Path, tmp_path: Path) -> None:
+    with pytest.raises(BadFile, match=r"holds a policy, but a locomotion model is needed"):
+        run(tiny_config("manipulation", "her-sldr"), tmp_path, (trained / "policy-best.pt",))
+
+
+def test_a_reward_that_is_no_number_ends_the_training_by_the_name_of_its_metric(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def poisoned(_: TaskStream, batch: Transitions) -> torch.Tensor:
+        return batch.reward.index_fill(0, torch.tensor([0]), float("nan"))
+
+    monkeypatch.setattr(TaskStream, "reward", poisoned)
+
+    with pytest.raises(TrainingDiverged, match="critic/task/loss became nan: training was stopped; lower agent"):
+        run(tiny_config(), tmp_path)
+    assert not (tmp_path / "checkpoint.pt").exists()
+
+
+def test_a_locomotion_model_with_broken_weights_ends_the_training(tmp_path: Path) -> None:
+    model = save_untrained_model(tmp_path / "model.pt", spoil=float("nan"))
+
+    with pytest.raises(TrainingDiverged, match="became nan"):
+        run(tiny_config("manipulation", "her-sldr"), tmp_path, (model,))
+
+
+def test_a_gpu_that_is_not_there_is_named_with_what_to_choose(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(torch.cuda, "is_available", lambda: False)
+    config = make_config("FetchPush", "locomotion", "her", 0, "smoke", {"compute": {"device": "cuda"}})
+
+    with pytest.raises(InvalidConfig, match=r"compute\.device: there is no GPU .* choose 'auto' or 'cpu'"):
+        run(config, tmp_path)
+
+
+def test_a_replay_that_no_disk_can_hold_is_refused_before_anything_is_written(tmp_path: Path) -> None:
+    config = make_config("FetchPush", "locomotion", "her", 0, "smoke", {"replay": {"capacity": 10**13}})
+
+    with pytest.raises(DiskTooFull, match=r"lower replay\.capacity or free some space"):
+        run(config, tmp_path)
+    assert list(tmp_path.iterdir()) == []
