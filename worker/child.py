@@ -27,8 +27,9 @@ from backend.store.queue import Cancelled, Failed, HandedBack, Outcome, Paused, 
 from backend.store.settings import Settings, load_settings
 from sldr_core.config import TrainConfig
 from sldr_core.errors import SldrError
+from sldr_core.records import Step
 from worker.locomotion_files import find_locomotion_models
-from worker.recorder import StoreRecorder, WriteCurves
+from worker.recorder import Curves, StoreRecorder, WriteCurves
 from worker.words import STOP_WORDS, StopWord
 
 PR_SET_PDEATHSIG = 1
@@ -73,7 +74,7 @@ class DirectoryBusy(Exception):
 
 def main() -> int:
     """Train for real."""
-    return run_child(_train)
+    return run_child(_train, _write_curves)
 
 
 def run_child(train: Train, write_curves: WriteCurves | None = None) -> int:
@@ -195,6 +196,12 @@ def _train(config: TrainConfig, recorder: StoreRecorder, locomotion_models: Sequ
     from sldr_core.training import train  # Brings PyTorch and MuJoCo, which tests of this process do without.
 
     return train(config, recorder, locomotion_models)
+
+
+def _write_curves(path: Path, title: str, steps: Sequence[Step], values: Curves) -> None:
+    from worker.rerun_log import write_curves  # Takes seconds to import, and is needed at the end only.
+
+    write_curves(path, title, steps, values)
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import logging
 import math
+import time
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Protocol
@@ -23,6 +24,9 @@ from worker.words import StopWord
 
 Curves = Mapping[str, Sequence[float | None]]
 """Values per metric, as long as the steps; None where a metric was not logged."""
+
+CURVES_INTERVAL_S = 60.0
+"""While a run trains, its Rerun file is renewed after a test if it is older than this [s]."""
 
 log = logging.getLogger(__name__)
 
@@ -53,6 +57,7 @@ class StoreRecorder:
         self._claim = claim
         self._stop_requested = stop_requested
         self._write_curves = write_curves
+        self._curves_saved_at = time.monotonic()
         self._known = find_progress(db, claim.run_id)
         self._writer = MetricWriter(db, claim)
 
@@ -82,6 +87,8 @@ class StoreRecorder:
         self._writer.put(MetricPoint(step, dict(metrics)), self._known)
         if "test/success_rate" in metrics:
             log.info("epoch %d: test success %.1f %%", step.epoch, 100.0 * metrics["test/success_rate"])
+            if time.monotonic() - self._curves_saved_at > CURVES_INTERVAL_S:
+                self._save_curves()
 
     def save_file(self, name: str, kind: str, write: Callable[[Path], None]) -> Path:
         """Write a file of the run safely, and register it with size and checksum.
@@ -129,6 +136,7 @@ class StoreRecorder:
         write_curves, config = self._write_curves, self._claim.config
         if write_curves is None:
             return
+        self._curves_saved_at = time.monotonic()
         steps, values = read_curves(self._db, self._claim.run_id)
         if not steps:
             return
