@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import socket
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -35,9 +36,19 @@ def base_url() -> None:
     """Stand in for pytest-playwright's own fixture, which pytest 9.2 warns about; tests name whole addresses."""
 
 
+@pytest.fixture(scope="session")
+def find_free_port() -> Callable[[], int]:
+    """Return a way to find ports on which nothing listens."""
+
+    def find() -> int:
+        with socket.socket() as probe:
+            probe.bind(("127.0.0.1", 0))
+            return probe.getsockname()[1]
+
+    return find
+
+
 @pytest.fixture
-def free_port() -> int:
+def free_port(find_free_port: Callable[[], int]) -> int:
     """Return a port on which nothing listens."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
+    return find_free_port()

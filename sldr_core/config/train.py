@@ -80,6 +80,8 @@ class ReplayConfig:
     """Transitions held; whole episodes, the oldest replaced first."""
     relabel_probability: Share = 0.8
     """Share of sampled transitions whose goal is replaced by one achieved later in the episode."""
+    still_weight: Annotated[float, Field(gt=0.0, le=1.0)] = 1.0
+    """How often an episode in which nothing moved is drawn, against one in which something did (1: alike)."""
 
 
 @dataclass(frozen=True, config=_FROZEN)

@@ -17,6 +17,9 @@ from numpy.typing import NDArray
 from sldr_core.errors import DiskTooFull
 from sldr_core.records import Episodes, Floats
 
+MOVED = 0.01
+"""An episode has moved something if an entry of its achieved goal changed by more than this [m or quaternion]."""
+
 FREE_DISK = 256 * 2**20
 """Disk space left free beside the replay file [bytes]."""
 
@@ -25,7 +28,8 @@ class ReplayBuffer:
     """Remember the newest `capacity` episodes.
 
     Attributes:
-        arrays: `obs`, `achieved`, `goal`, `action` and every extra, each `[slots, ...]`, views of the file.
+        arrays: `obs`, `achieved`, `goal`, `action` and every extra, each `[slots, ...]`, views of the file;
+            and `moved`, 1 where an achieved goal changed during the episode, else 0.
         written: episodes ever stored; with it alone a buffer over the same file is restored.
         file_size: size of the whole file [bytes].
     """
@@ -45,6 +49,7 @@ class ReplayBuffer:
         self.capacity = capacity
         self.slots = capacity + slack
         self.written = 0
+        shapes = {**shapes, "moved": ()}
         sizes = {name: int(np.prod(shape)) for name, shape in shapes.items()}
         self.file_size = 4 * self.slots * sum(sizes.values())
         _check_disk(path, self.file_size)
@@ -65,7 +70,7 @@ class ReplayBuffer:
         """Keep N episodes."""
         slots = (self.written + np.arange(episodes.goal.shape[0])) % self.slots
         parts = {"obs": episodes.obs, "achieved": episodes.achieved, "goal": episodes.goal, "action": episodes.action}
-        for name, values in {**parts, **episodes.extra}.items():
+        for name, values in {**parts, **episodes.extra, "moved": has_moved(episodes.achieved)}.items():
             self.arrays[name][slots] = values
         self.written += slots.size
 
@@ -76,6 +81,11 @@ class ReplayBuffer:
     def flush(self) -> None:
         """Bring the file to the disk."""
         self._file.flush()
+
+
+def has_moved(achieved: Floats) -> Floats:
+    """Return 1 for each episode in which an entry of the achieved goal `[N, T+1, G]` changed by `MOVED`, else 0."""
+    return (np.abs(achieved - achieved[:, :1]).max(axis=(1, 2)) > MOVED).astype(np.float32)
 
 
 def _check_disk(path: Path, bytes_needed: int) -> None:

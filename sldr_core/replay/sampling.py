@@ -63,21 +63,63 @@ def draw_steps(
     return step, np.where(relabelled, later, 0)
 
 
+@dataclass(frozen=True)
+class EpisodeGroups:
+    """Ranks of the episodes that can be drawn, by whether anything moved in them."""
+
+    written: int
+    """Episodes stored when this was found."""
+    moved: NDArray[np.int64]
+    still: NDArray[np.int64]
+
+
+def group_episodes(buffer: ReplayBuffer) -> EpisodeGroups:
+    """Find in which episodes something moved."""
+    moved = buffer.arrays["moved"][buffer.slot_of(np.arange(len(buffer)))] > 0.0
+    return EpisodeGroups(buffer.written, np.flatnonzero(moved), np.flatnonzero(~moved))
+
+
+def draw_ranks(
+    rng: np.random.Generator, batch_size: int, groups: EpisodeGroups, still_weight: float
+) -> NDArray[np.int64]:
+    """Draw episodes with probability 1 if something moved in them, `still_weight` if not, up to a factor."""
+    moved, still = len(groups.moved), len(groups.still)
+    share = moved / (moved + still_weight * still)
+    from_moved = rng.random(batch_size) < share
+    position = rng.random(batch_size)
+    ranks = np.empty(batch_size, dtype=np.int64)
+    ranks[from_moved] = groups.moved[(position[from_moved] * moved).astype(np.int64)]
+    ranks[~from_moved] = groups.still[(position[~from_moved] * still).astype(np.int64)]
+    return ranks
+
+
 class HindsightSampler:
     """Draw batches from a replay buffer, replacing goals in hindsight."""
 
     def __init__(
-        self, buffer: ReplayBuffer, reward: Reward, relabel_probability: float, rng: np.random.Generator
+        self,
+        buffer: ReplayBuffer,
+        reward: Reward,
+        relabel_probability: float,
+        still_weight: float,
+        rng: np.random.Generator,
     ) -> None:
         self.rng = rng
         self._buffer = buffer
         self._reward = reward
         self._relabel_probability = relabel_probability
+        self._still_weight = still_weight
+        self._groups = EpisodeGroups(0, np.empty(0, np.int64), np.empty(0, np.int64))
         self._length = buffer.arrays["action"].shape[1]
 
     def draw(self, batch_size: int) -> Draw:
         """Draw a batch's indices, with replacement."""
-        rank = self.rng.integers(len(self._buffer), size=batch_size)
+        if self._still_weight < 1.0:
+            if self._groups.written != self._buffer.written:
+                self._groups = group_episodes(self._buffer)
+            rank = draw_ranks(self.rng, batch_size, self._groups, self._still_weight)
+        else:
+            rank = self.rng.integers(len(self._buffer), size=batch_size)
         step, goal_step = draw_steps(self.rng, batch_size, self._length, self._relabel_probability)
         return Draw(self._buffer.slot_of(rank), step, goal_step)
 
@@ -92,7 +134,7 @@ def read_sample(buffer: ReplayBuffer, draw: Draw, reward: Reward) -> Sample:
     episode, step = draw.episode, draw.step
     relabelled = (draw.goal_step > 0)[:, None]
     goal = np.where(relabelled, arrays["achieved"][episode, draw.goal_step], arrays["goal"][episode])
-    known = ("obs", "achieved", "goal", "action")
+    known = ("obs", "achieved", "goal", "action", "moved")
     return Sample(
         obs=arrays["obs"][episode, step],
         next_obs=arrays["obs"][episode, step + 1],

@@ -92,7 +92,9 @@ def build_training(config: TrainConfig, directory: Path, locomotion_models: Sequ
         envs=envs,
         test_envs=test_envs,
         buffer=buffer,
-        sampler=HindsightSampler(buffer, envs.reward, config.replay.relabel_probability, rng),
+        sampler=HindsightSampler(
+            buffer, envs.reward, config.replay.relabel_probability, config.replay.still_weight, rng
+        ),
         exploration=Exploration(config.exploration, np.random.default_rng(exploration_seed)),
         agent=agent,
         inverse=inverse if locomotion else None,

@@ -18,7 +18,10 @@ LEARNT = 0.95
 @pytest.mark.learning
 @pytest.mark.timeout(900)
 def test_an_object_learns_to_move_itself_to_its_goal(tmp_path: Path) -> None:
-    result = run(make_config("FetchPush", "locomotion", "her", 0, "quick"), tmp_path)
+    # One thread: on a busy machine threads that wait for each other take many times as long.
+    config = make_config("FetchPush", "locomotion", "her", 0, "quick", {"compute": {"threads": 1}})
+
+    result = run(config, tmp_path)
 
     assert result.best_success_rate is not None
     assert result.best_success_rate >= LEARNT

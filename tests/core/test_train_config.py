@@ -167,13 +167,14 @@ def test_task_then_method_then_preset_then_overrides_decide() -> None:
     config = make_config("FetchPush", "locomotion", "ddpg", 5, "quick", {"loop": {"epochs": 3}})
 
     assert (config.task, config.phase, config.method, config.seed) == ("FetchPush", "locomotion", "ddpg", 5)
-    assert config.agent.gamma == task.locomotion_gamma
+    assert config.agent.gamma == PRESETS["quick"].locomotion["agent"]["gamma"]
     assert config.exploration.noise_std == 0.05
     assert config.replay.relabel_probability == METHODS["ddpg"].relabel_probability == 0.0
     assert config.loop.batch_size == PRESETS["quick"].locomotion["loop"]["batch_size"]
     assert config.loop.epochs == 3
     assert make_config("FetchPush", "locomotion", "her", 0, "quick").loop.epochs == 10
-    assert make_config("FetchPush", "locomotion", "her", 0, "paper").loop.epochs == task.paper_locomotion_epochs
+    paper = make_config("FetchPush", "locomotion", "her", 0, "paper")
+    assert (paper.loop.epochs, paper.agent.gamma) == (task.paper_locomotion_epochs, task.locomotion_gamma)
 
 
 def test_the_paper_preset_is_the_papers_protocol() -> None:
