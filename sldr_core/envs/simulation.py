@@ -53,6 +53,14 @@ class Simulation:
         self.qvel[ids] = qvel
         self.batch.forward(ids)
 
+    def has_body(self, name: str) -> bool:
+        """Tell whether the scene has a body of this name."""
+        return mujoco.mj_name2id(self.model, mujoco.mjtObj.mjOBJ_BODY, name) >= 0
+
+    def has_joint(self, name: str) -> bool:
+        """Tell whether the scene has a joint of this name."""
+        return mujoco.mj_name2id(self.model, mujoco.mjtObj.mjOBJ_JOINT, name) >= 0
+
     def site(self, name: str) -> Site:
         """Resolve a site once, with the joints that move it."""
         site = self.model.site(name).id
