@@ -13,7 +13,7 @@ from collections.abc import Callable
 
 from sldr_core.config import PHASES, Phase, Robot, TaskSpec, Variant, find_task
 from sldr_core.envs.envs import Envs, Observation
-from sldr_core.envs.families import EnvOrder, build_fetch_env, build_stack_env, build_tuple_env
+from sldr_core.envs.families import EnvOrder, build_fetch_env, build_hand_env, build_stack_env, build_tuple_env
 from sldr_core.envs.parts import EnvParts
 from sldr_core.errors import InvalidConfig, UnknownName
 
@@ -23,6 +23,7 @@ FAMILIES: dict[str, Callable[[EnvOrder], EnvParts]] = {
     "fetch": build_fetch_env,
     "stack": build_stack_env,
     "tuple": build_tuple_env,
+    "hand": build_hand_env,
 }
 """How the environment of each family is put together."""
 

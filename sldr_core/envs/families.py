@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from sldr_core.config import FetchScene, Phase, Robot, StackScene, TaskSpec, TupleScene
+from sldr_core.config import FetchScene, HandScene, Phase, Robot, StackScene, TaskSpec, TupleScene
 from sldr_core.envs.fetch import fetch_parts, robot_stays
-from sldr_core.envs.parts import EnvParts
+from sldr_core.envs.hand import HandActuation, HandObjectObserver, HandRobotObserver, HandStarts
+from sldr_core.envs.parts import EnvParts, ObjectActuation
 from sldr_core.envs.scenes.fetch import build_fetch, settle_fetch
+from sldr_core.envs.scenes.hand import OBJECT, build_hand, without_welds
 from sldr_core.envs.scenes.stack import build_stack, settle_stack
 from sldr_core.envs.scenes.tuple import BLOCK_SIDE, build_tuple, settle_tuple
+from sldr_core.envs.scenes.welds import object_mocap
 from sldr_core.envs.simulation import Simulation
 from sldr_core.envs.table_starts import FetchStarts, StackStarts, TupleStarts
 
@@ -61,3 +64,17 @@ def build_tuple_env(order: EnvOrder) -> EnvParts:
     simulation = Simulation(model, order.num_envs, order.threads)
     starts = TupleStarts(scene, settle_tuple(scene), model, BLOCK_SIDE)
     return fetch_parts(scene, scene.objects, acted, order.phase, simulation, starts)
+
+
+def build_hand_env(order: EnvOrder) -> EnvParts:
+    """Build an object in the hand, which stays whoever acts: the object lies on it."""
+    spec, scene = order.spec, order.spec.scene
+    assert isinstance(scene, HandScene)
+    model = build_hand(scene, order.acts, spec.weld_torque_scale)
+    simulation = Simulation(model, order.num_envs, order.threads)
+    settling = Simulation(without_welds(model), order.num_envs, order.threads)
+    hand = HandActuation(simulation)
+    if not order.acts:
+        return EnvParts(simulation, hand, None, HandRobotObserver(simulation), HandStarts(scene, settling), None)
+    actuation = ObjectActuation([simulation.mocap(object_mocap(0), OBJECT)])
+    return EnvParts(simulation, actuation, hand, HandObjectObserver(simulation), HandStarts(scene, settling), None)

@@ -75,3 +75,24 @@ def quaternion_from_euler(euler: NDArray[np.floating]) -> NDArray[np.float64]:
         ],
         axis=-1,
     )
+
+
+def multiply_quaternions(a: NDArray[np.floating], b: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Return the rotation `b` followed by `a`, as quaternions `[..., 4]`, w first."""
+    aw, ax, ay, az = np.moveaxis(np.asarray(a, dtype=np.float64), -1, 0)
+    bw, bx, by, bz = np.moveaxis(np.asarray(b, dtype=np.float64), -1, 0)
+    return np.stack(
+        [
+            aw * bw - ax * bx - ay * by - az * bz,
+            aw * bx + ax * bw + ay * bz - az * by,
+            aw * by + ay * bw + az * bx - ax * bz,
+            aw * bz + az * bw + ax * by - ay * bx,
+        ],
+        axis=-1,
+    )
+
+
+def quaternion_about(axis: NDArray[np.floating], angle: float) -> NDArray[np.float64]:
+    """Return the unit quaternion `[4]`, w first, of a turn by `angle` [rad] about `axis` `[3]` of any length."""
+    direction = axis / np.linalg.norm(axis)
+    return np.array([np.cos(angle / 2.0), *(np.sin(angle / 2.0) * direction)])

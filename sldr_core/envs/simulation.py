@@ -38,9 +38,9 @@ class Simulation:
         self._subtree_com: Array = self.batch.bind("subtree_com")
         self.batch.reset()
 
-    def step(self, substeps: int) -> None:
-        """Advance every simulation by `substeps` physics steps."""
-        self.batch.step(nstep=substeps)
+    def step(self, substeps: int, ids: Ids | None = None) -> None:
+        """Advance simulations `ids` (all if None) by `substeps` physics steps."""
+        self.batch.step(ids, nstep=substeps)
 
     def forward(self) -> None:
         """Bring everything derived up to date with positions and velocities."""
