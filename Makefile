@@ -67,7 +67,7 @@ system:
 web/node_modules/.package-lock.json: web/package-lock.json web/package.json web/client-generator/package.json | system
 	@echo "Installing the web packages"
 	@# Not "npm ci": it refuses a lock file that lacks the packages of systems other than the one it was written on.
-	@cd web && npm install --no-save --no-fund --no-audit --loglevel=error
+	@cd web && npm install --no-save --no-fund --no-audit --loglevel=error >/dev/null
 	@touch $@
 
 web/dist/index.html: web/node_modules/.package-lock.json web/index.html web/vite.config.ts web/tsconfig.json $(WEB_SOURCES)

@@ -24,5 +24,5 @@ for package in sorted(found, key=lambda package: package["name"].lower()):
     if not LEFT_OUT.match(package["name"].lower()):
         print(f"{package['name']}=={package['version'].partition('+')[0]}")
 PYTHON
-mv "$fresh/requirements.lock" requirements.lock
+cmp --silent "$fresh/requirements.lock" requirements.lock || mv "$fresh/requirements.lock" requirements.lock
 echo "requirements.lock: $(grep -c == requirements.lock) packages"

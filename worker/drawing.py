@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from contextlib import closing
+from typing import Any
+
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
@@ -65,7 +68,8 @@ def draw(
     data = mujoco.MjData(dressed)
     data.qpos[:] = qpos
     _place_goal(dressed, data, goal)
-    with mujoco.Renderer(dressed, height=height, width=width) as renderer:
+    untyped: Any = mujoco.Renderer(dressed, height=height, width=width)
+    with closing(untyped) as renderer:
         renderer.update_scene(data, camera.as_mujoco())
         frame = renderer.render().copy()
     check_frame(frame)

@@ -21,14 +21,17 @@ from sldr_core.records import Step
 from worker.metric_writer import MetricWriter
 from worker.words import StopWord
 
+Curves = Mapping[str, Sequence[float | None]]
+"""Values per metric, as long as the steps; None where a metric was not logged."""
+
 log = logging.getLogger(__name__)
 
 
 class WriteCurves(Protocol):
     """Write a run's curves to a Rerun file."""
 
-    def __call__(self, path: Path, run_title: str, points: Sequence[MetricPoint]) -> None:
-        """Write all `points` to `path`."""
+    def __call__(self, path: Path, title: str, steps: Sequence[Step], values: Curves) -> None:
+        """Write all points to `path`."""
         ...
 
 
@@ -123,15 +126,16 @@ class StoreRecorder:
 
     def _save_curves(self) -> None:
         """Write the run's curves, of this attempt and those before it, to a Rerun file."""
-        points = run_points(self._db, self._claim.run_id) if self._write_curves is not None else []
-        if self._write_curves is None or not points:
+        write_curves, config = self._write_curves, self._claim.config
+        if write_curves is None:
             return
-        claim, write_curves = self._claim, self._write_curves
-        title = f"{claim.config.task} {claim.config.method} {claim.config.phase}, seed {claim.config.seed}"
+        steps, values = read_curves(self._db, self._claim.run_id)
+        if not steps:
+            return
+        title = f"{config.task} {config.method} {config.phase}, seed {config.seed}"
+        name = f"curves-attempt-{self._claim.attempt}.rrd"
         try:
-            self.save_file(
-                f"curves-attempt-{claim.attempt}.rrd", "recording", lambda path: write_curves(path, title, points)
-            )
+            self.save_file(name, "recording", lambda path: write_curves(path, title, steps, values))
         except (StaleFence, StoreUnavailable):
             raise
         except Exception:
@@ -139,26 +143,20 @@ class StoreRecorder:
             log.exception("The Rerun file could not be written.")
 
 
-def run_points(db: Database, run_id: str) -> list[MetricPoint]:
+def read_curves(db: Database, run_id: str) -> tuple[list[Step], Curves]:
     """Return every point of a run that no later attempt has superseded."""
-    points: list[MetricPoint] = []
+    steps: list[Step] = []
+    curves: dict[str, list[float | None]] = {}
     cursor = 0
-    while True:
-        columns = read_metrics(db, run_id, cursor)
-        if columns.cursor == cursor:
-            return points
-        cursor = columns.cursor
-        for index, cycle in enumerate(columns.step):
-            step = Step(
-                cycle=cycle,
-                epoch=columns.epoch[index],
-                env_steps=columns.env_steps[index],
-                episodes=columns.episodes[index],
-                updates=columns.updates[index],
-                wall_seconds=columns.wall_seconds[index],
-            )
-            logged = {name: column[index] for name, column in columns.values.items()}
-            points.append(MetricPoint(step, {name: value for name, value in logged.items() if value is not None}))
+    while (page := read_metrics(db, run_id, cursor)).step:
+        cursor = page.cursor
+        for name in page.values:
+            curves.setdefault(name, [None] * len(steps))
+        counts = zip(page.step, page.epoch, page.env_steps, page.episodes, page.updates, page.wall_seconds, strict=True)
+        steps.extend(Step(*numbers) for numbers in counts)
+        for name, column in curves.items():
+            column.extend(page.values.get(name, [None] * len(page.step)))
+    return steps, curves
 
 
 def checksum(path: Path) -> str:

@@ -33,7 +33,10 @@ MISSING_EGL = (
 )
 
 _OWN_ERROR = 3
-"""Exit status of a process whose last line is one clear sentence."""
+"""Exit status of a process that says in one sentence why it failed."""
+
+_ERROR_MARK = "error: "
+"""What that sentence's line begins with; MuJoCo and Python may write lines of their own."""
 
 
 class RenderFailed(SldrError):
@@ -86,21 +89,23 @@ def main() -> int:
         else:
             _draw_here(options.task, options.file, options.width, options.height)
     except SldrError as err:
-        print(err, file=sys.stderr)
+        print(f"{_ERROR_MARK}{err}", file=sys.stderr)
         return _OWN_ERROR
     return 0
 
 
 def _draw_here(task: str, path: Path, width: int, height: int) -> None:
     find_task(task)
-    # MuJoCo reads it when imported, so it is set before and in this process alone.
-    os.environ["MUJOCO_GL"] = "egl"
     try:
         ctypes.CDLL(EGL_LIBRARY)
+        # MuJoCo reads it when imported, so it is set before and in this process alone.
+        os.environ["MUJOCO_GL"] = "egl"
         from worker.drawing import draw_task
-    except (OSError, ImportError) as err:
+
+        picture = draw_task(task, width, height)
+    except (OSError, ImportError, RuntimeError) as err:
         raise RenderFailed(f"{MISSING_EGL} ({err}).") from err
-    draw_task(task, width, height).save(path, format="PNG")
+    picture.save(path, format="PNG")
 
 
 def _run(command: list[str], task: str) -> None:
@@ -113,8 +118,8 @@ def _run(command: list[str], task: str) -> None:
         raise RenderFailed(f"The picture of {task} was not drawn within {DRAWING_TIMEOUT_S:.0f} s.") from err
     if done.returncode:
         lines = done.stderr.strip().splitlines() or [f"exit status {done.returncode}"]
-        reason = lines[-1] if done.returncode == _OWN_ERROR else f"The renderer broke down: {lines[-1]}"
-        raise RenderFailed(reason)
+        sentences = [line.removeprefix(_ERROR_MARK) for line in lines if line.startswith(_ERROR_MARK)]
+        raise RenderFailed(sentences[0] if sentences else f"The renderer broke down: {lines[-1]}")
 
 
 if __name__ == "__main__":

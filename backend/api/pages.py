@@ -27,7 +27,7 @@ NOT_BUILT = """<!doctype html>
 def add_pages(app: FastAPI, directory: Path) -> None:
     """Serve the built page from `directory`, or a page that says how to build it."""
     for path in ("/api", "/api/{path:path}"):
-        app.add_api_route(path, _nothing_here, methods=["GET", "HEAD"], include_in_schema=False)
+        app.add_api_route(path, _nothing_here, methods=["GET"], include_in_schema=False)
     app.add_middleware(CacheRules)
     if (directory / "index.html").is_file():
         app.frontend("/", directory=directory, fallback="index.html")

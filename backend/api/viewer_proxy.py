@@ -23,7 +23,7 @@ from backend.api.dependencies import Service, ServiceParts
 from backend.api.errors import problem, problem_answer
 from backend.api.tokens import BadToken
 from backend.store import viewer_sessions
-from backend.store.errors import NotFound
+from backend.store.errors import NotFound, StoreUnavailable
 
 log = logging.getLogger("sldr.api.viewer")
 
@@ -172,7 +172,10 @@ async def _stay_open(service: Service, token: str) -> None:
     """End when the session ended or its token expired."""
     while True:
         await asyncio.sleep(TOUCH_INTERVAL_S)
-        await run_in_threadpool(_find_port, service, token)
+        try:
+            await run_in_threadpool(_find_port, service, token)
+        except StoreUnavailable as error:
+            log.warning("%s The 3D view goes on.", error)
 
 
 def _unreachable(port: int) -> NoView:

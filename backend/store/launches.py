@@ -146,7 +146,8 @@ def _find_shared(conn: Connection, digest: str) -> str | None:
 
 
 def _insert_run(conn: Connection, planned: PlannedRun, needed_ids: list[str], at: datetime) -> str:
-    needed: Sequence[AnyRow] = conn.execute(select(runs).where(runs.c.id.in_(needed_ids))).all()
+    # Locked, so that a locomotion run cannot end unseen between this look and the insert.
+    needed: Sequence[AnyRow] = conn.execute(select(runs).where(runs.c.id.in_(needed_ids)).with_for_update()).all()
     reason = why_blocked(needed, planned.config.sldr.gate)
     state = RunState.QUEUED if reason is None else RunState.BLOCKED
     run_id = uuid.uuid4().hex[:RUN_ID_LENGTH]

@@ -3,13 +3,28 @@
 from __future__ import annotations
 
 import pickle
+import zlib
 from pathlib import Path
 from typing import Any
-from zipfile import BadZipFile
+from zipfile import BadZipFile, ZipFile
 
 import torch
 
 from sldr_core.errors import BadFile
+
+_UNREADABLE = (
+    BadZipFile,
+    EOFError,
+    AttributeError,
+    LookupError,
+    NotImplementedError,
+    RuntimeError,
+    TypeError,
+    ValueError,
+    pickle.UnpicklingError,
+    zlib.error,
+)
+"""What zipfile and torch.load raise on files that are cut short, damaged or foreign."""
 
 
 def load_tensors(path: Path, *kinds: str) -> dict[str, Any]:
@@ -25,10 +40,19 @@ def load_tensors(path: Path, *kinds: str) -> dict[str, Any]:
     if not path.is_file():
         raise BadFile(f"There is no file {path}; give the path of a {' or '.join(kinds)}.")
     try:
+        _check_sums(path)
         content = torch.load(path, map_location="cpu", weights_only=True)
-    except (RuntimeError, pickle.UnpicklingError, EOFError, BadZipFile, ValueError, KeyError) as err:
+    except _UNREADABLE as err:
         raise BadFile(f"{path} is corrupt or no file of ours; restore it from a copy or train again.") from err
     kind = content.get("kind") if isinstance(content, dict) else None
     if kind not in kinds:
         raise BadFile(f"{path} holds a {kind or 'foreign object'}, but a {' or '.join(kinds)} is needed.")
     return content
+
+
+def _check_sums(path: Path) -> None:
+    """Read the whole archive: torch.load itself takes damaged weights for good ones."""
+    with ZipFile(path) as archive:
+        damaged = archive.testzip()
+    if damaged is not None:
+        raise BadZipFile(f"{damaged} is damaged")

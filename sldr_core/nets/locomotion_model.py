@@ -10,7 +10,7 @@ import torch
 from torch import Tensor, nn
 
 from sldr_core.config import TrainConfig, config_from_dict, config_hash, config_to_dict
-from sldr_core.errors import BadFile
+from sldr_core.errors import BadFile, InvalidConfig
 from sldr_core.nets.files import load_tensors
 from sldr_core.nets.mlp import Mlp, MlpStack
 from sldr_core.nets.normalizer import Normalizer
@@ -95,7 +95,7 @@ def load_locomotion_model(path: Path) -> LocomotionModel:
         nets = LocomotionNets(config, torch.Generator())
         nets.load_state_dict(content["nets"])
         measured = Measured(float(content["success_rate"]), int(content["test_episodes"]))
-    except (KeyError, TypeError, ValueError, RuntimeError) as err:
+    except (AttributeError, KeyError, TypeError, ValueError, RuntimeError, InvalidConfig) as err:
         raise BadFile(f"{path} is no usable locomotion model ({err}); train it again.") from err
     nets.requires_grad_(False).eval()
     return LocomotionModel(nets, config, measured)

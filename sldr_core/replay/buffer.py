@@ -27,6 +27,7 @@ class ReplayBuffer:
     Attributes:
         arrays: `obs`, `achieved`, `goal`, `action` and every extra, each `[slots, ...]`, views of the file.
         written: episodes ever stored; with it alone a buffer over the same file is restored.
+        file_size: size of the whole file [bytes].
     """
 
     def __init__(self, path: Path, shapes: Mapping[str, tuple[int, ...]], capacity: int, slack: int) -> None:
@@ -45,9 +46,9 @@ class ReplayBuffer:
         self.slots = capacity + slack
         self.written = 0
         sizes = {name: int(np.prod(shape)) for name, shape in shapes.items()}
-        bytes_needed = 4 * self.slots * sum(sizes.values())
-        _check_disk(path, bytes_needed)
-        floats = np.memmap(path, dtype=np.float32, mode="r+" if path.exists() else "w+", shape=(bytes_needed // 4,))
+        self.file_size = 4 * self.slots * sum(sizes.values())
+        _check_disk(path, self.file_size)
+        floats = np.memmap(path, dtype=np.float32, mode="r+" if path.exists() else "w+", shape=(self.file_size // 4,))
         self._file = floats
         self.arrays: dict[str, Floats] = {}
         begin = 0

@@ -14,7 +14,7 @@ from sldr_core.config import TrainConfig, config_hash, config_to_dict
 from sldr_core.envs import Envs
 from sldr_core.errors import BadFile
 from sldr_core.nets.files import load_tensors
-from sldr_core.training.build import Parts
+from sldr_core.training.build import REPLAY_FILE, Parts
 
 CHECKPOINT_FILE = "checkpoint.pt"
 KIND = "checkpoint"
@@ -54,19 +54,35 @@ def write_checkpoint(path: Path, parts: Parts, counters: Counters) -> None:
             "sampler_rng": _pack_rng(parts.sampler.rng),
             "exploration_rng": _pack_rng(parts.exploration.rng),
             "replay_written": parts.buffer.written,
+            "replay_bytes": parts.buffer.file_size,
         },
         path,
     )
 
 
-def read_checkpoint(path: Path, parts: Parts) -> Counters:
+def read_checkpoint(path: Path, config: TrainConfig) -> dict[str, Any]:
+    """Read a checkpoint that fits a config; nothing in its directory is touched.
+
+    Raises:
+        BadFile: the file is corrupt, was made by another config, or has lost its replay file.
+    """
+    content = load_tensors(path, KIND)
+    if content.get("config_hash") != config_hash(config):
+        raise BadFile(
+            f"{path} was made by another config than this run's; use another directory, or remove it to start anew."
+        )
+    replay = path.with_name(REPLAY_FILE)
+    if not replay.is_file() or replay.stat().st_size != content.get("replay_bytes"):
+        raise BadFile(f"{path} needs {replay}, which is gone or was cut short; remove the checkpoint to start anew.")
+    return content
+
+
+def restore_training(path: Path, content: dict[str, Any], parts: Parts) -> Counters:
     """Bring a training to the state of a checkpoint.
 
     Raises:
-        BadFile: the file is corrupt, or was made by another config.
+        BadFile: a part of the content is missing or does not fit.
     """
-    content = load_tensors(path, KIND)
-    _check_config(path, content, parts.config)
     try:
         parts.agent.load_state_dict(content["agent"])
         if parts.inverse is not None:
@@ -77,15 +93,8 @@ def read_checkpoint(path: Path, parts: Parts) -> Counters:
         _unpack_rng(parts.exploration.rng, content["exploration_rng"])
         parts.buffer.written = int(content["replay_written"])
         return Counters(**{field.name: content["counters"][field.name] for field in fields(Counters)})
-    except (KeyError, TypeError, ValueError, RuntimeError) as err:
+    except (AttributeError, KeyError, TypeError, ValueError, RuntimeError) as err:
         raise BadFile(f"{path} is no whole checkpoint ({err}); remove it to start this run anew.") from err
-
-
-def _check_config(path: Path, content: dict[str, Any], config: TrainConfig) -> None:
-    if content.get("config_hash") != config_hash(config):
-        raise BadFile(
-            f"{path} was made by another config than this run's; use another directory, or remove it to start anew."
-        )
 
 
 def _pack_rng(rng: np.random.Generator) -> str:

@@ -14,7 +14,7 @@ from sldr_core.config import TrainConfig
 from sldr_core.nets.locomotion_model import LocomotionModel, LocomotionNets, Measured
 from sldr_core.records import Step
 from sldr_core.training.build import CHECKPOINT_CYCLES, Parts, build_training
-from sldr_core.training.checkpoint import CHECKPOINT_FILE, Counters, read_checkpoint, write_checkpoint
+from sldr_core.training.checkpoint import CHECKPOINT_FILE, Counters, read_checkpoint, restore_training, write_checkpoint
 from sldr_core.training.cycle import collect, collect_random, learn
 from sldr_core.training.policy import BEST_POLICY_FILE, NEWEST_POLICY_FILE, write_policy
 from sldr_core.training.recorder import Recorder, StopReason
@@ -49,9 +49,11 @@ def train(config: TrainConfig, recorder: Recorder, locomotion_models: Sequence[P
     Raises:
         SldrError: something that would fail again: a bad file, a missing model, a full disk, diverged numbers.
     """
-    parts = build_training(config, recorder.directory, locomotion_models)
     checkpoint = recorder.directory / CHECKPOINT_FILE
-    counters = read_checkpoint(checkpoint, parts) if checkpoint.exists() else Counters()
+    # Read before anything is built: building would replace the replay file of another config.
+    content = read_checkpoint(checkpoint, config) if checkpoint.exists() else None
+    parts = build_training(config, recorder.directory, locomotion_models)
+    counters = restore_training(checkpoint, content, parts) if content else Counters()
     try:
         stopped = _Loop(parts, counters, recorder).run()
     except _Cancelled:

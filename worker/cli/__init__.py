@@ -39,7 +39,7 @@ def _run(command: str, arguments: list[str]) -> int:
     try:
         if command not in COMMANDS:
             raise UnknownName("command", command, COMMANDS)
-        return import_module(f"worker.cli.{command}").main(arguments)
+        return import_module(f"worker.cli.commands.{command}").main(arguments)
     except SldrError as error:
         return _fail(str(error))
     except OSError as error:

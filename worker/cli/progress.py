@@ -7,10 +7,14 @@ from pathlib import Path
 
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn
+from rich.table import Column
 
 from sldr_core.config import TrainConfig
 from sldr_core.records import Step
 from sldr_core.training.recorder import Recorder, StopReason
+
+BAR_WIDTH = 12
+"""Narrow, so that the line beside it fits in a terminal [characters]."""
 
 
 class ShownProgress:
@@ -20,9 +24,8 @@ class ShownProgress:
         self._epochs = config.loop.epochs
         self._console = console
         self._newest: dict[str, float] = {}
-        self._bar = Progress(
-            TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), console=console, transient=False
-        )
+        line = TextColumn("{task.description}", table_column=Column(ratio=1, no_wrap=False))
+        self._bar = Progress(BarColumn(BAR_WIDTH), TaskProgressColumn(), line, console=console, expand=True)
         self._row = self._bar.add_task("starting", total=1.0)
 
     def __enter__(self) -> ShownProgress:
@@ -88,9 +91,10 @@ def describe(step: Step, epochs: int, metrics: Mapping[str, float]) -> str:
 
 
 def duration(seconds: float) -> str:
-    """Return a time span as a person says it, in its two largest units."""
-    whole = max(0, round(seconds))
-    hours, minutes = divmod(whole // 60, 60)
-    if hours:
-        return f"{hours} h {minutes} min"
-    return f"{minutes} min {whole % 60} s" if minutes else f"{whole} s"
+    """Return a time span as a person says it, as precisely as it can be foreseen."""
+    minutes, rest = divmod(max(0, round(seconds)), 60)
+    if minutes >= 60:
+        return f"{minutes // 60} h {minutes % 60} min"
+    if minutes >= 10:
+        return f"{minutes} min"
+    return f"{minutes} min {rest} s" if minutes else f"{rest} s"

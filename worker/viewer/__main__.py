@@ -15,7 +15,7 @@ from backend.store.errors import StoreUnavailable
 from backend.store.settings import Settings, load_settings
 from sldr_core.errors import SldrError
 from worker.viewer.host import Host
-from worker.viewer.reports import Job
+from worker.viewer.process import serve_session
 
 POLL_S = 0.2
 """Time between two looks into the store [s]."""
@@ -52,7 +52,7 @@ def host_sessions(settings: Settings) -> None:
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda *_: stop.set())
     database = open_database(settings)
-    host = Host(database, settings, target=_serve_session)
+    host = Host(database, settings, target=serve_session)
     host.begin()
     pictures = _draw_pictures(settings.home)
     try:
@@ -78,13 +78,6 @@ def _round(host: Host) -> float:
 def _draw_pictures(home: Path) -> subprocess.Popen[bytes]:
     """Draw the missing pictures of the tasks beside everything else; what goes wrong is on this process's stderr."""
     return subprocess.Popen([sys.executable, "-m", "worker.render", "--all-below", str(home)])
-
-
-def _serve_session(job: Job, pipe: object) -> None:
-    """Import torch and MuJoCo in the session's process alone: the host stays small."""
-    from worker.viewer.session import serve_session
-
-    serve_session(job, pipe)  # pyright: ignore[reportArgumentType]
 
 
 def _show_one(policy: Path, port: int) -> None:

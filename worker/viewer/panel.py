@@ -55,7 +55,8 @@ def describe(rollout: Rollout) -> str:
     actor = "the object moves itself" if policy.config.phase == "locomotion" else policy.config.method
     lines = [f"**{policy.config.task}**, {actor}, seed {policy.config.seed}"]
     if policy.epoch is not None:
-        tested = "" if policy.success_rate is None else f", test success {policy.success_rate:.0%}"
+        is_tested = policy.success_rate is not None and policy.success_rate >= 0.0
+        tested = f", test success {policy.success_rate:.0%}" if is_tested else ""
         lines.append(f"Policy of epoch {policy.epoch}{tested}")
     lines.append(f"Episode {rollout.episode}, {100 * rollout.distance:.0f} cm to the goal")
     if rollout.finished:

@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-import ctypes
-import logging
 import os
-import signal
-import sys
 import time
+from collections.abc import Callable
 from multiprocessing.connection import Connection
 from pathlib import Path
 
 import torch
 
-from sldr_core.errors import SldrError
 from worker.viewer.camera import find_camera
 from worker.viewer.page import open_page
 from worker.viewer.panel import Panel
 from worker.viewer.playback import Playback
 from worker.viewer.policy_file import PolicyFile
-from worker.viewer.reports import Broken, Job, Ready, Report, Watched
+from worker.viewer.reports import Ready, Watched
 from worker.viewer.rollout import Rollout, make_rollout_envs
 from worker.viewer.scene import SceneView
 
@@ -31,13 +27,6 @@ UNWATCHED_S = 0.2
 
 RESULT_S = 0.6
 """How long the end of an episode stands still [s]."""
-
-NICENESS = 5
-"""Watching gives way to training."""
-
-PR_SET_PDEATHSIG = 1
-
-log = logging.getLogger("sldr.viewer")
 
 
 class Session:
@@ -109,49 +98,28 @@ class Session:
         self._panel.show(rollout)
 
 
-def serve_session(job: Job, host: Connection) -> None:
-    """Serve one session until the host ends this process; the entry point of the process."""
-    end_with_host(job.host_pid)
-    logging.basicConfig(stream=sys.stderr, level=logging.INFO, format="%(asctime)s %(name)s %(message)s")
+def serve(policy_path: Path, host: Connection) -> None:
+    """Open a session, tell the host, and run it for ever.
+
+    Raises:
+        BadFile: the policy cannot be used.
+        BrokenPipeError: the host is gone.
+    """
     torch.set_num_threads(1)
-    try:
-        session = Session(job.policy_path)
-        _tell(host, Ready(session.port, session.message))
-        watch(session, host)
-    except SldrError as err:
-        _tell(host, Broken(str(err)))
-    except Exception as err:
-        log.exception("session %s broke down", job.session_id)
-        _tell(host, Broken(f"The 3D view broke down ({type(err).__name__}: {err})."))
+    session = Session(policy_path)
+    host.send(Ready(session.port, session.message))
+    watch(session, lambda clients: host.send(Watched(clients)))
 
 
-def watch(session: Session, host: Connection | None = None) -> None:
-    """Run a session for ever; tell the host how many people watch."""
+def watch(session: Session, tell: Callable[[int], None] = lambda clients: None) -> None:
+    """Run a session for ever; tell each time the number of people who watch has changed."""
     clients, last = -1, time.monotonic()
     while True:
         time.sleep(FRAME_S if clients > 0 else UNWATCHED_S)
         now = time.monotonic()
         if session.clients != clients:
             clients = session.clients
-            if host is not None:
-                _tell(host, Watched(clients))
+            tell(clients)
         if clients > 0:
             session.advance(now - last)
         last = now
-
-
-def end_with_host(host_pid: int) -> None:
-    """Make this process gentle, deaf to Ctrl-C (the host ends it in order), and mortal with its host."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    os.nice(NICENESS)
-    if sys.platform == "linux":
-        ctypes.CDLL(None, use_errno=True).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
-    if os.getppid() != host_pid:
-        raise SystemExit(1)
-
-
-def _tell(host: Connection, report: Report) -> None:
-    try:
-        host.send(report)
-    except BrokenPipeError:
-        raise SystemExit(1) from None

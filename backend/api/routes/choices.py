@@ -43,7 +43,7 @@ def get_task_picture(task: str, settings: ServiceSettings) -> FileResponse:
         raise ApiError(404, str(UnknownName("task", task, TASKS)), "task")
     path = settings.pictures_directory / f"{task}.png"
     if not path.is_file():
-        raise ApiError(404, f"The picture of {task} is not drawn yet; a worker draws it when it starts.")
+        raise ApiError(404, f"The picture of {task} is not drawn yet; the viewer draws it when it starts.")
     return FileResponse(path, media_type="image/png")
 
 

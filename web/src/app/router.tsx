@@ -5,6 +5,7 @@ import {
   createRouter,
   lazyRouteComponent,
   parseSearchWith,
+  type RouterHistory,
   stringifySearchWith,
 } from '@tanstack/react-router';
 import { PageBroke, PageNotFound } from '@/app/failures';
@@ -42,18 +43,24 @@ const workers = createRoute({
   component: lazyRouteComponent(() => import('@/features/workers/workers-page'), 'WorkersPage'),
 });
 
-export const router = createRouter({
-  routeTree: root.addChildren([runs, launch, run, workers]),
-  defaultNotFoundComponent: PageNotFound,
-  defaultErrorComponent: PageBroke,
-  scrollRestoration: true,
-  // Every search value is a plain word, so addresses need no JSON quotes.
-  parseSearch: parseSearchWith((value) => value),
-  stringifySearch: stringifySearchWith(String),
-});
+/** Make the router; a test hands in a history of its own. */
+export function makeRouter(history?: RouterHistory) {
+  return createRouter({
+    routeTree: root.addChildren([runs, launch, run, workers]),
+    history,
+    defaultNotFoundComponent: PageNotFound,
+    defaultErrorComponent: PageBroke,
+    scrollRestoration: true,
+    // Every search value is a plain word, so addresses need no JSON quotes.
+    parseSearch: parseSearchWith((value) => value),
+    stringifySearch: stringifySearchWith(String),
+  });
+}
+
+export type AppRouter = ReturnType<typeof makeRouter>;
 
 declare module '@tanstack/react-router' {
   interface Register {
-    router: typeof router;
+    router: AppRouter;
   }
 }

@@ -1006,6 +1006,15 @@ export interface operations {
                     "application/json": components["schemas"]["LaunchResult"];
                 };
             };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
             /** @description Not allowed. */
             403: {
                 headers: {
@@ -1064,6 +1073,15 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["LaunchPlan"];
+                };
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
                 };
             };
             /** @description Not allowed. */
@@ -1679,6 +1697,15 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["ViewerSession"];
+                };
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
                 };
             };
             /** @description Not allowed. */

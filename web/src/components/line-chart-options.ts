@@ -8,6 +8,8 @@ export interface ChartLook {
   readonly isShare: boolean;
   /** Whether smoothed curves are drawn, with the logged points faded behind them. */
   readonly isSmoothed: boolean;
+  /** Distances that ticks of the x axis may have; uPlot's own if left out. */
+  readonly xSteps?: readonly number[];
   readonly formatX: (value: number) => string;
   readonly formatY: (value: number) => string;
   /** Places on the x axis where a later attempt began. */
@@ -37,21 +39,28 @@ const INK: Record<Scheme, { text: string; grid: string; mark: string }> = {
 
 /** Options for uPlot; what changes between renders is read through `now`. */
 export function chartOptions(now: () => Current, width: number): uPlot.Options {
-  const { height, isShare, lines, scheme } = now();
+  const { height, isShare, lines, scheme, xSteps } = now();
   const ink = INK[scheme];
   const font = '11px system-ui, sans-serif';
   const axis: uPlot.Axis = { stroke: ink.text, font, grid: { stroke: ink.grid, width: 1 }, ticks: { show: false } };
   return {
     width,
     height,
-    padding: [8, 8, 0, 0],
+    padding: [8, 18, 0, 0],
     legend: { show: false },
     scales: {
       x: { time: false, range: () => [...now().range] as [number, number] },
       y: { range: (_plot, low, high) => (isShare ? [-0.02, 1.02] : padded(low, high)) },
     },
     axes: [
-      { ...axis, size: 28, gap: 4, space: 60, values: (_plot, splits) => splits.map((value) => now().formatX(value)) },
+      {
+        ...axis,
+        size: 28,
+        gap: 4,
+        space: 64,
+        ...(xSteps && { incrs: [...xSteps] }),
+        values: (_plot, splits) => splits.map((value) => now().formatX(value)),
+      },
       { ...axis, size: 52, gap: 5, space: 28, values: (_plot, splits) => splits.map((value) => now().formatY(value)) },
     ],
     series: [{}, ...seriesOf(now(), lines.length)],

@@ -99,6 +99,14 @@ export const AXIS_NAMES: Record<Axis, string> = {
   wall_seconds: 'Wall time',
 };
 
+/** Ticks of the wall time lie on round numbers of seconds, minutes or hours [s]. */
+const TIME_STEPS = [1, 5, 10, 30, 60, 120, 300, 600, 1800, 3600, 7200, 18_000, 36_000, 86_400];
+
+/** Distances that ticks of an axis may have, where plain round numbers read badly. */
+export function xSteps(axis: Axis): readonly number[] | undefined {
+  return axis === 'wall_seconds' ? TIME_STEPS : undefined;
+}
+
 /** A place on the x axis as text. */
 export function formatX(axis: Axis, value: number): string {
   if (axis === 'wall_seconds') return formatDuration(value);

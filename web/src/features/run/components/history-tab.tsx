@@ -3,7 +3,7 @@ import { useQuery } from '@tanstack/react-query';
 import { SentencePanel } from '@/components/sentence-panel';
 import { StateBadge } from '@/components/state-badge';
 import { sentence } from '@/lib/api';
-import { formatMoment, formatName } from '@/lib/format';
+import { formatMoment, formatName, NOTHING } from '@/lib/format';
 import { eventsQuery } from '../api/run-records';
 import classes from './run.module.css';
 
@@ -38,7 +38,7 @@ export function HistoryTab({ runId }: { runId: string }) {
               <td>
                 <StateBadge state={state} />
               </td>
-              <td className="number">{attempt}</td>
+              <td className="number">{attempt || NOTHING}</td>
               <td className={classes.detail}>{detail}</td>
             </tr>
           ))}

@@ -6,7 +6,7 @@ import { Icon } from '@/components/icon';
 import { LineChart } from '@/components/line-chart';
 import { type Metrics, newestValue } from '@/lib/metrics';
 import { lineStyle, type Scheme } from '@/lib/palette';
-import { AXIS_NAMES, type ChartPoints, type ChartSpec, chartPoints, formatX, formatY } from '../charts';
+import { AXIS_NAMES, type ChartPoints, type ChartSpec, chartPoints, formatX, formatY, xSteps } from '../charts';
 import type { Axis } from '../search';
 import classes from './charts.module.css';
 import { MetricTable } from './metric-table';
@@ -66,6 +66,7 @@ export function MetricChart({ chart, view, height }: { chart: ChartSpec; view: C
           height={height}
           isShare={chart.isShare}
           isSmoothed={weight > 0}
+          xSteps={xSteps(axis)}
           formatX={showX}
           formatY={showY}
           marks={marks}

@@ -9,6 +9,7 @@ import tyro
 
 from sldr_core.config import find_task
 from sldr_core.errors import InvalidConfig
+from worker.render import PICTURE_SIZE, render_task_picture
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -16,7 +17,7 @@ def main(arguments: Sequence[str]) -> int:
     return tyro.cli(render, prog="sldr render", args=list(arguments))
 
 
-def render(task: str, out: Path, width: int = 640, height: int = 480) -> int:
+def render(task: str, out: Path, width: int = PICTURE_SIZE[0], height: int = PICTURE_SIZE[1]) -> int:
     """Draw the picture of a task.
 
     Args:
@@ -30,8 +31,6 @@ def render(task: str, out: Path, width: int = 640, height: int = 480) -> int:
         raise InvalidConfig({"size": f"a picture needs at least one pixel each way, got {width} x {height}"})
     if not out.absolute().parent.is_dir():
         raise InvalidConfig({"out": f"there is no directory {out.absolute().parent}; make it first"})
-    from worker.render import render_task_picture
-
     render_task_picture(task, out, width, height)
     print(out)
     return 0

@@ -8,6 +8,7 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from types import FrameType
 from typing import Annotated
@@ -32,13 +33,13 @@ class Arguments:
     """The task to learn, as `sldr list tasks` names it."""
     phase: Phase = "manipulation"
     """Who acts: the object on its own, or the robot."""
-    method: str | None = None
+    method: Annotated[str | None, tyro.conf.arg(metavar="STR", help_behavior_hint="")] = None
     """The method, as `sldr list methods` names it (default: her-sldr, for locomotion her)."""
     seed: int = 0
     """Seed of every random number."""
     preset: str = "quick"
     """The budget, as `sldr list presets` names it."""
-    out: Path | None = None
+    out: Annotated[Path | None, tyro.conf.arg(metavar="DIR", help_behavior_hint="")] = None
     """Directory for checkpoints, policies and metrics (default: one below runs/, named after the training)."""
     locomotion_model: Annotated[tyro.conf.UseAppendAction[tuple[Path, ...]], tyro.conf.arg(metavar="FILE")] = ()
     """The locomotion.pt of a locomotion training, where the method takes its reward from one."""
@@ -63,11 +64,12 @@ def _train(config: TrainConfig, directory: Path, models: Sequence[Path], command
 
     console = Console(stderr=True)
     recorder = DirectoryRecorder(directory)
-    console.print(f"Training {config.task} ({config.phase}, {config.method}, seed {config.seed}) into {directory}")
+    say = partial(console.print, highlight=False, soft_wrap=True)
+    say(f"Training {config.task} ({config.phase}, {config.method}, seed {config.seed}) into {directory}")
 
     def stop() -> None:
         recorder.request_stop("pause")
-        console.print("Stopping: writing a checkpoint first. Once more ends at once, without one.")
+        say("Stopping: writing a checkpoint first. Once more ends at once, without one.")
 
     with ShownProgress(config, console) as progress, _stopping(stop):
         result = train(config, ShownRecorder(recorder, progress), models)

@@ -1,0 +1,85 @@
+"""Pictures of the tasks: drawn by a process of its own, checked, and a clear sentence where that cannot work."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from sldr_core.config import TASKS
+from sldr_core.errors import UnknownName
+from worker import render
+from worker.drawing import EmptyPicture, check_frame
+
+GOAL_IS_RED = (150, 70)
+"""Least red, and most green and blue, of the goal marker."""
+
+
+@pytest.fixture(scope="module")
+def home(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    home = tmp_path_factory.mktemp("home")
+    assert render.render_all_pictures(home) == [home / "pictures" / f"{task}.png" for task in TASKS]
+    return home
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_a_task_s_picture_has_its_size_and_shows_the_goal(home, task):
+    with Image.open(home / "pictures" / f"{task}.png") as picture:
+        assert picture.size == render.PICTURE_SIZE
+        pixels = np.asarray(picture.convert("RGB")).astype(int)
+    check_frame(pixels.astype(np.uint8))
+    red = (pixels[..., 0] > GOAL_IS_RED[0]) & (pixels[..., 1:] < GOAL_IS_RED[1]).all(axis=-1)
+    assert red.sum() > 100
+
+
+def test_only_missing_pictures_are_drawn(home):
+    before = {path: path.stat().st_mtime_ns for path in (home / "pictures").iterdir()}
+    assert render.render_all_pictures(home) == []
+    assert {path: path.stat().st_mtime_ns for path in (home / "pictures").iterdir()} == before
+
+
+def test_a_picture_takes_the_size_asked_for_and_leaves_nothing_beside_it(tmp_path):
+    path = tmp_path / "new" / "push.png"
+    render.render_task_picture("FetchPush", path, 160, 90)
+    with Image.open(path) as picture:
+        assert picture.size == (160, 90)
+    assert list(path.parent.iterdir()) == [path]
+
+
+def test_a_frame_of_one_colour_is_refused():
+    with pytest.raises(EmptyPicture):
+        check_frame(np.zeros((4, 4, 3), dtype=np.uint8))
+
+
+def test_an_unknown_task_is_named_before_anything_is_started(tmp_path):
+    with pytest.raises(UnknownName, match="No task is called 'FetchPus'"):
+        render.render_task_picture("FetchPus", tmp_path / "x.png")
+
+
+def test_missing_egl_is_one_sentence_with_the_packages(monkeypatch, tmp_path):
+    monkeypatch.setattr(render, "EGL_LIBRARY", "libEGL-that-is-not-there.so.1")
+    with pytest.raises(render.RenderFailed) as caught:
+        render._draw_here("FetchPush", tmp_path / "x.png", 64, 64)
+    assert "apt-get install -y libegl1 libegl-mesa0 libgl1-mesa-dri" in str(caught.value)
+    assert "\n" not in str(caught.value)
+    assert "MUJOCO_GL" not in os.environ
+
+
+def test_a_machine_without_an_egl_device_gets_the_same_sentence(monkeypatch, tmp_path):
+    monkeypatch.setenv("MUJOCO_EGL_DEVICE_ID", "999")
+    with pytest.raises(render.RenderFailed, match="libegl-mesa0"):
+        render.render_task_picture("FetchPush", tmp_path / "x.png", 64, 64)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_command_says_in_one_sentence_what_is_wrong(tmp_path):
+    command = [sys.executable, "-m", "worker.render", "FetchPus", str(tmp_path / "x.png")]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 3
+    assert done.stderr.startswith("error: No task is called 'FetchPus'. Did you mean 'FetchPush'?")
+    assert len(done.stderr.splitlines()) == 1

@@ -1,0 +1,72 @@
+"""A child process whose training is a counter, so that tests see everything but the learning.
+
+Its argument says how it behaves; what it counted is kept in `cycle.txt`, its checkpoint.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from sldr_core.config import TrainConfig
+from sldr_core.errors import TrainingDiverged
+from sldr_core.records import Step
+from worker.child import run_child
+from worker.recorder import StoreRecorder
+from worker.words import StopWord
+
+CYCLE_S = 0.02
+LAST_CYCLE = {"counts": 5, "lasts": 100_000}
+
+
+@dataclass(frozen=True)
+class Result:
+    stopped: StopWord | None = None
+    test_success_rate: float | None = 0.5
+    best_success_rate: float | None = 1.0
+
+
+def step(cycle: int) -> Step:
+    return Step(cycle, epoch=1, env_steps=cycle, episodes=cycle, updates=cycle, wall_seconds=cycle * CYCLE_S)
+
+
+def count(recorder: StoreRecorder, last_cycle: int) -> Result:
+    """Count cycles from the checkpoint on, and stop between two of them when asked."""
+    checkpoint = recorder.directory / "cycle.txt"
+    cycle = int(checkpoint.read_text()) if checkpoint.exists() else 0
+    while cycle < last_cycle:
+        cycle += 1
+        time.sleep(CYCLE_S)
+        recorder.log(step(cycle), {"test/success_rate": 0.5, "speed/env_steps_per_s": 10.0})
+        checkpoint.write_text(str(cycle))
+        stop = recorder.stop_requested()
+        if stop is not None:
+            return Result(stopped=stop)
+    return Result()
+
+
+def train(config: TrainConfig, recorder: StoreRecorder, locomotion_models: Sequence[Path]) -> Result:
+    behaviour = sys.argv[1]
+    if behaviour not in LAST_CYCLE:
+        recorder.log(step(1), {"test/success_rate": 0.25})
+    match behaviour:
+        case "counts" | "lasts":
+            return count(recorder, LAST_CYCLE[behaviour])
+        case "is-deaf":
+            time.sleep(3600.0)
+        case "diverges":
+            raise TrainingDiverged("Metric critic/task/loss became nan; lower the learning rate.")
+        case "breaks":
+            raise RuntimeError("the simulation exploded\nin two lines")
+        case "dies-once" if config.seed == 0 and not (recorder.directory / "died").exists():
+            (recorder.directory / "died").touch()
+            os.abort()
+    return Result()
+
+
+if __name__ == "__main__":
+    sys.exit(run_child(train))

@@ -1,0 +1,207 @@
+"""The recorder keeps numbers and files, and finds locomotion models unharmed."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from backend.store import metrics
+from backend.store.claims import Claim
+from backend.store.database import Database
+from backend.store.errors import StaleFence
+from backend.store.files import find_file, list_files, register_file
+from backend.store.launches import LaunchOrder, launch
+from backend.store.metrics import MetricPoint, append_metrics, read_metrics
+from backend.store.queue import HandedBack, Succeeded, claim, finish
+from backend.store.runs import get_run
+from backend.store.settings import Settings
+from sldr_core.errors import BadFile, LocomotionMissing, TrainingDiverged
+from sldr_core.records import Step
+from worker.locomotion_files import find_locomotion_models
+from worker.recorder import Curves, StoreRecorder, WriteCurves, read_curves
+
+STEP = Step(cycle=1, epoch=1, env_steps=200, episodes=4, updates=4, wall_seconds=0.5)
+MODEL = b"weights"
+
+
+def never() -> None:
+    """Ask for nothing."""
+
+
+@pytest.fixture
+def locomotion_claim(db: Database) -> Claim:
+    """Return a claimed locomotion run whose dependent waits."""
+    launch(db, LaunchOrder("FetchPush", "manipulation", "her-sldr", [0], "smoke"))
+    claimed = claim(db, "worker-1")
+    assert claimed is not None
+    return claimed
+
+
+def record(db: Database, settings: Settings, claimed: Claim, write_curves: WriteCurves | None = None) -> StoreRecorder:
+    return StoreRecorder(db, settings, claimed, never, write_curves)
+
+
+def write_model(path: Path) -> None:
+    path.write_bytes(MODEL)
+
+
+def next_claim(db: Database, claimed: Claim) -> Claim:
+    finish(db, claimed, Succeeded(1.0))
+    following = claim(db, "worker-1")
+    assert following is not None
+    return following
+
+
+def leave_model(db: Database, settings: Settings, claimed: Claim) -> Path:
+    path = settings.run_directory(claimed.run_id) / "locomotion.pt"
+    path.parent.mkdir(parents=True)
+    path.write_bytes(MODEL)
+    digest = hashlib.sha256(MODEL).hexdigest()
+    register_file(db, claimed, path.name, "locomotion", str(path.relative_to(settings.home)), len(MODEL), digest)
+    return path
+
+
+def test_everything_logged_is_stored_when_the_recorder_closes(
+    db: Database, settings: Settings, locomotion_claim: Claim
+) -> None:
+    with record(db, settings, locomotion_claim) as recorder:
+        recorder.log(STEP, {"test/success_rate": 0.75, "progress/seconds_left": 12.0})
+
+    progress = get_run(db, locomotion_claim.run_id).progress
+    assert read_metrics(db, locomotion_claim.run_id).values["test/success_rate"] == [0.75]
+    assert progress is not None
+    assert (progress.fraction, progress.epochs, progress.success_rate, progress.seconds_left) == (0.25, 2, 0.75, 12.0)
+
+
+def test_the_last_test_is_remembered_between_tests(db: Database, settings: Settings, locomotion_claim: Claim) -> None:
+    with record(db, settings, locomotion_claim) as recorder:
+        recorder.log(STEP, {"test/success_rate": 0.75})
+        recorder.log(STEP, {"speed/env_steps_per_s": 9.0})
+
+    progress = get_run(db, locomotion_claim.run_id).progress
+    assert progress is not None
+    assert (progress.success_rate, progress.env_steps_per_s) == (0.75, 9.0)
+
+
+def test_a_number_that_is_not_finite_ends_the_training_by_name(
+    db: Database, settings: Settings, locomotion_claim: Claim
+) -> None:
+    with (
+        record(db, settings, locomotion_claim) as recorder,
+        pytest.raises(TrainingDiverged, match="actor/loss became inf in cycle 1"),
+    ):
+        recorder.log(STEP, {"actor/loss": float("inf")})
+
+
+def test_a_saved_file_is_registered_with_size_and_checksum(
+    db: Database, settings: Settings, locomotion_claim: Claim
+) -> None:
+    with record(db, settings, locomotion_claim) as recorder:
+        path = recorder.save_file("policy.pt", "policy", write_model)
+
+    row = find_file(db, locomotion_claim.run_id, "policy.pt")
+    assert (row.size, row.sha256, row.kind) == (len(MODEL), hashlib.sha256(MODEL).hexdigest(), "policy")
+    assert settings.home / row.path == path
+    assert path.read_bytes() == MODEL
+
+
+def test_a_file_that_could_not_be_written_leaves_the_old_one(
+    db: Database, settings: Settings, locomotion_claim: Claim
+) -> None:
+    def write_half(path: Path) -> None:
+        path.write_bytes(b"half")
+        raise OSError("no space left")
+
+    with record(db, settings, locomotion_claim) as recorder:
+        path = recorder.save_file("policy.pt", "policy", write_model)
+        with pytest.raises(OSError, match="no space left"):
+            recorder.save_file("policy.pt", "policy", write_half)
+
+    assert path.read_bytes() == MODEL
+    assert sorted(entry.name for entry in path.parent.iterdir()) == ["policy.pt"]
+
+
+def test_a_stale_attempt_cannot_register_files(db: Database, settings: Settings, locomotion_claim: Claim) -> None:
+    with record(db, settings, locomotion_claim) as recorder:
+        finish(db, locomotion_claim, HandedBack("Its worker was asked to end."))
+        with pytest.raises(StaleFence):
+            recorder.save_file("policy.pt", "policy", write_model)
+
+    assert list_files(db, locomotion_claim.run_id) == []
+
+
+def test_the_curves_of_every_attempt_are_written_at_the_end(
+    db: Database, settings: Settings, locomotion_claim: Claim
+) -> None:
+    written: list[tuple[str, list[Step], dict]] = []
+
+    def write_curves(path: Path, title: str, steps: Sequence[Step], values: Curves) -> None:
+        path.touch()
+        written.append((title, list(steps), dict(values)))
+
+    with record(db, settings, locomotion_claim, write_curves) as recorder:
+        recorder.log(STEP, {"test/success_rate": 0.75})
+
+    assert written == [("FetchPush her locomotion, seed 0", [STEP], {"test/success_rate": [0.75]})]
+    assert find_file(db, locomotion_claim.run_id, "curves-attempt-1.rrd").kind == "recording"
+
+
+def test_curves_of_several_pages_are_put_together(
+    db: Database, locomotion_claim: Claim, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(metrics, "READ_LIMIT", 2)
+    logged = [{"a/x": 1.0}, {"a/x": 2.0}, {"a/y": 3.0}, {"a/x": 4.0}, {"a/y": 5.0}]
+    steps = [replace(STEP, cycle=cycle) for cycle in range(1, 6)]
+    append_metrics(db, locomotion_claim, [MetricPoint(*point) for point in zip(steps, logged, strict=True)])
+
+    assert read_curves(db, locomotion_claim.run_id) == (
+        steps,
+        {"a/x": [1.0, 2.0, None, 4.0, None], "a/y": [None, None, 3.0, None, 5.0]},
+    )
+
+
+def test_a_training_does_not_fail_with_its_rerun_file(
+    db: Database, settings: Settings, locomotion_claim: Claim, caplog: pytest.LogCaptureFixture
+) -> None:
+    def write_curves(path: Path, title: str, steps: Sequence[Step], values: Curves) -> None:
+        raise RuntimeError("no curves today")
+
+    with record(db, settings, locomotion_claim, write_curves) as recorder:
+        recorder.log(STEP, {"test/success_rate": 0.75})
+
+    assert "no curves today" in caplog.text
+
+
+def test_the_model_of_the_locomotion_run_is_found(db: Database, settings: Settings, locomotion_claim: Claim) -> None:
+    path = leave_model(db, settings, locomotion_claim)
+
+    assert find_locomotion_models(db, settings, next_claim(db, locomotion_claim)) == [path]
+
+
+def test_a_locomotion_run_without_a_model_is_named(db: Database, settings: Settings, locomotion_claim: Claim) -> None:
+    dependent = next_claim(db, locomotion_claim)
+
+    with pytest.raises(LocomotionMissing, match=f"{locomotion_claim.run_id} has left no locomotion model"):
+        find_locomotion_models(db, settings, dependent)
+
+
+def test_a_model_that_is_gone_is_named(db: Database, settings: Settings, locomotion_claim: Claim) -> None:
+    path = leave_model(db, settings, locomotion_claim)
+    dependent = next_claim(db, locomotion_claim)
+    path.unlink()
+
+    with pytest.raises(LocomotionMissing, match=f"{path} is gone"):
+        find_locomotion_models(db, settings, dependent)
+
+
+def test_a_model_that_has_changed_is_refused(db: Database, settings: Settings, locomotion_claim: Claim) -> None:
+    path = leave_model(db, settings, locomotion_claim)
+    dependent = next_claim(db, locomotion_claim)
+    path.write_bytes(b"other weights")
+
+    with pytest.raises(BadFile, match="is not the file that run"):
+        find_locomotion_models(db, settings, dependent)

@@ -1,0 +1,102 @@
+"""Workers in this process and in others, and waiting for what they do."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable, Generator
+from contextlib import contextmanager
+from pathlib import Path
+
+from backend.store.database import Database
+from backend.store.launches import LaunchOrder, launch
+from backend.store.metrics import read_metrics
+from backend.store.runs import RunRow, get_run
+from backend.store.settings import Settings
+from backend.store.states import RunState
+from worker.executors.local import LocalExecutor
+from worker.supervisor import Supervisor, Timing
+
+HERE = Path(__file__).parent
+TIMING = Timing(
+    poll_s=0.05,
+    heartbeat_s=0.2,
+    lease_s=60.0,
+    reap_s=0.1,
+    cancel_grace_s=0.5,
+    stop_grace_s=5.0,
+    retry_backoff_s=0.0,
+)
+PATIENCE_S = 60.0
+"""Long, because the machine that runs the tests may be busy with others."""
+
+
+def fake_command(behaviour: str) -> list[str]:
+    """Return the command of a child that behaves so."""
+    return [sys.executable, str(HERE / "fake_child.py"), behaviour]
+
+
+@contextmanager
+def worker(db: Database, settings: Settings, behaviour: str, timing: Timing = TIMING) -> Generator[Supervisor]:
+    """Run a supervisor in a thread for as long as the block lasts."""
+    supervisor = Supervisor(db, LocalExecutor(settings, fake_command(behaviour)), 1, timing)
+    thread = threading.Thread(target=supervisor.run)
+    thread.start()
+    try:
+        yield supervisor
+    finally:
+        supervisor.ask_to_stop()
+        supervisor.ask_to_stop()
+        thread.join()
+
+
+@contextmanager
+def worker_process(settings: Settings, behaviour: str) -> Generator[subprocess.Popen[bytes]]:
+    """Run a supervisor in a process of its own."""
+    process = subprocess.Popen([sys.executable, str(HERE / "fake_worker.py"), behaviour], env=settings.as_environment())
+    try:
+        yield process
+    finally:
+        process.kill()
+        process.wait()
+
+
+def queued_run(db: Database, seed: int = 0) -> str:
+    """Queue a run that needs no other."""
+    return launch(db, LaunchOrder("FetchPush", "manipulation", "her", [seed], "smoke"))[0]
+
+
+def wait_until(is_so: Callable[[], bool], patience_s: float = PATIENCE_S) -> None:
+    """Wait for something to come true."""
+    give_up_at = time.monotonic() + patience_s
+    while not is_so():
+        assert time.monotonic() < give_up_at, "it did not come true in time"
+        time.sleep(0.02)
+
+
+def wait_for_state(db: Database, run_id: str, state: RunState) -> RunRow:
+    """Wait until a run is in a state."""
+    wait_until(lambda: get_run(db, run_id).state is state)
+    return get_run(db, run_id)
+
+
+def wait_for_training(db: Database, settings: Settings, run_id: str) -> int:
+    """Wait until a run's child has logged something; return the child's process id."""
+    wait_until(lambda: bool(read_metrics(db, run_id).step))
+    begun = [line for line in read_log(settings, run_id).splitlines() if "begins in process" in line]
+    return int(begun[-1].rstrip(".").split()[-1])
+
+
+def read_log(settings: Settings, run_id: str) -> str:
+    """Return what the run's processes have said."""
+    return (settings.run_directory(run_id) / "log.txt").read_text()
+
+
+def is_alive(pid: int) -> bool:
+    """Tell whether a process runs; a zombie does not."""
+    try:
+        return "\nState:\tZ" not in Path(f"/proc/{pid}/status").read_text()
+    except (FileNotFoundError, ProcessLookupError):
+        return False

@@ -1,0 +1,86 @@
+import { screen, waitFor, within } from '@testing-library/react';
+import { beforeEach, expect, test } from 'vitest';
+import { type FakeServer, problem } from '@/testing/fake-server';
+import { openPage, startServer } from '@/testing/open-page';
+import { DEFAULTS, DETAIL, RUN } from '@/testing/samples';
+
+const PLANNED = { task: 'FetchPush', method: 'her-sldr', seed: 0, config: DEFAULTS };
+
+let server: FakeServer;
+beforeEach(() => {
+  server = startServer()
+    .on('POST /api/launches/plan', () => ({
+      body: {
+        runs: [
+          { ...PLANNED, phase: 'locomotion', method: 'her', reused_run_id: null },
+          { ...PLANNED, phase: 'manipulation', reused_run_id: null },
+        ],
+      },
+    }))
+    .on('POST /api/launches', () => ({ status: 201, body: { runs: [{ ...RUN, id: 'l', phase: 'locomotion' }, RUN] } }))
+    .on('GET /api/runs/run-1', () => ({ body: DETAIL }));
+});
+
+test('the plan says that the locomotion run comes first', async () => {
+  openPage('/launch');
+  const plan = await screen.findByRole('complementary', { name: 'What will be queued' });
+  expect(await within(plan).findByText('2 runs')).toBeTruthy();
+  expect(within(plan).getByText('added first: the robot learns from its model')).toBeTruthy();
+});
+
+test('launching sends the choices and leads to the run', async () => {
+  const { user, router } = openPage('/launch');
+  await user.click(await screen.findByRole('button', { name: 'Launch 2 runs' }));
+  await waitFor(() => expect(router.state.location.pathname).toBe('/runs/run-1'));
+  expect(server.bodiesOf('POST', '/api/launches')).toEqual([
+    { task: 'FetchPush', phase: 'manipulation', method: 'her-sldr', preset: 'quick', seeds: [0], overrides: {} },
+  ]);
+});
+
+test('only changed settings are sent', async () => {
+  const { user } = openPage('/launch');
+  await user.click(await screen.findByRole('button', { name: /Advanced settings/ }));
+  const field = await screen.findByRole('textbox', { name: 'Batch size' });
+  await user.clear(field);
+  await user.type(field, '512');
+  await waitFor(() =>
+    expect(server.bodiesOf('POST', '/api/launches/plan').at(-1)).toMatchObject({
+      overrides: { loop: { batch_size: 512 } },
+    }),
+  );
+});
+
+test('a number out of range is marked at its field, and nothing can be launched', async () => {
+  const { user } = openPage('/launch');
+  await user.click(await screen.findByRole('button', { name: /Advanced settings/ }));
+  const field = await screen.findByRole('textbox', { name: 'Batch size' });
+  await user.clear(field);
+  await user.type(field, '-1');
+  expect(await screen.findByText('It must be above 0.')).toBeTruthy();
+  expect(field.getAttribute('aria-invalid')).toBe('true');
+  expect(screen.getByRole('button', { name: 'Launch' })).toHaveProperty('disabled', true);
+});
+
+test('what the server refuses is shown at the field it names', async () => {
+  server.on('POST /api/launches/plan', () =>
+    problem(422, 'overrides.loop.batch_size', 'It is more than fits in memory.'),
+  );
+  const { user } = openPage('/launch');
+  await user.click(await screen.findByRole('button', { name: /Advanced settings/ }));
+  expect(await screen.findByText('It is more than fits in memory.')).toBeTruthy();
+  expect(screen.getByRole('textbox', { name: 'Batch size' }).getAttribute('aria-invalid')).toBe('true');
+});
+
+test('seeds that cannot be read get a sentence', async () => {
+  const { user } = openPage('/launch');
+  const seeds = await screen.findByRole('textbox', { name: 'Seeds' });
+  await user.clear(seeds);
+  expect(await screen.findByText('Enter at least one seed, such as 0.')).toBeTruthy();
+});
+
+test('a locomotion run cannot learn with SLDR', async () => {
+  const { user } = openPage('/launch');
+  await user.click(await screen.findByRole('radio', { name: 'Locomotion' }));
+  await waitFor(() => expect(screen.getByRole('radio', { name: 'her-sldr' })).toHaveProperty('disabled', true));
+  expect(screen.getByRole('radio', { name: 'her' })).toHaveProperty('checked', true);
+});

@@ -1,0 +1,98 @@
+import { screen, waitFor, within } from '@testing-library/react';
+import { beforeEach, expect, test } from 'vitest';
+import type { FakeServer } from '@/testing/fake-server';
+import { openPage, startServer } from '@/testing/open-page';
+import { DETAIL, RUN } from '@/testing/samples';
+
+const LOCOMOTION = { ...RUN, id: 'run-0', phase: 'locomotion' as const, method: 'her' };
+const BLOCKED = {
+  ...RUN,
+  id: 'run-2',
+  seed: 2,
+  state: 'blocked' as const,
+  progress: null,
+  needs: ['run-0'],
+  started_at: null,
+};
+const FAILED = { ...RUN, id: 'run-3', seed: 3, state: 'failed' as const, reason: 'The loss became NaN in epoch 3.' };
+
+let server: FakeServer;
+beforeEach(() => {
+  server = startServer().on('GET /api/runs', () => ({
+    body: { runs: [FAILED, BLOCKED, RUN, LOCOMOTION], next_cursor: null, total: 4 },
+  }));
+});
+
+test('without runs the page says what to do first', async () => {
+  server.on('GET /api/runs', () => ({ body: { runs: [], next_cursor: null, total: 0 } }));
+  openPage('/');
+  expect(await screen.findByRole('link', { name: 'Launch the first run' })).toBeTruthy();
+});
+
+test('a running run shows state, epoch, success and speed', async () => {
+  openPage('/');
+  const row = (await screen.findByRole('link', { name: 'FetchPush manipulation, her-sldr, seed 0' })).closest('tr');
+  if (row === null) throw new Error('The link stands in no row.');
+  const cells = within(row);
+  expect(cells.getByText('running')).toBeTruthy();
+  expect(cells.getByText('3/20')).toBeTruthy();
+  expect(cells.getByText('42 %')).toBeTruthy();
+  expect(cells.getByText('3.12k')).toBeTruthy();
+  expect(cells.getByText('3m 20s')).toBeTruthy();
+});
+
+test('a blocked run leads to the locomotion run it waits for', async () => {
+  openPage('/');
+  const link = await screen.findByRole('link', { name: /the locomotion run of seed 0/ });
+  expect(link.getAttribute('href')).toBe('/runs/run-0');
+});
+
+test('a failed run says why on its row', async () => {
+  openPage('/');
+  expect(await screen.findByText('The loss became NaN in epoch 3.')).toBeTruthy();
+});
+
+test('the filters of the address are asked of the server', async () => {
+  openPage('/?state=running&method=her');
+  await waitFor(() => expect(server.asked.some(({ path }) => path === '/api/runs')).toBe(true));
+  const query = new URLSearchParams(server.asked.find(({ path }) => path === '/api/runs')?.search);
+  expect(query.get('state')).toBe('running');
+  expect(query.get('method')).toBe('her');
+});
+
+test('what is searched for goes into the address', async () => {
+  const { user, router } = openPage('/');
+  await user.type(await screen.findByRole('searchbox', { name: 'Search runs' }), 'push');
+  await waitFor(() => expect(router.state.location.search).toMatchObject({ search: 'push' }));
+});
+
+test('an unknown address gets one clear sentence', async () => {
+  openPage('/nowhere');
+  expect(await screen.findByText('There is no such page')).toBeTruthy();
+});
+
+test('a server that is away is announced, and the rows stay', async () => {
+  openPage('/');
+  await screen.findByText('The loss became NaN in epoch 3.');
+  server.isDown = true;
+  expect(await screen.findByText(/Reconnecting/)).toBeTruthy();
+  expect(screen.getByText('The loss became NaN in epoch 3.')).toBeTruthy();
+});
+
+test('the config tab marks what differs from the preset', async () => {
+  server.on('GET /api/runs/run-1', () => ({ body: DETAIL }));
+  openPage('/runs/run-1?tab=config');
+  expect(await screen.findByText(/1 setting changed from the preset quick/)).toBeTruthy();
+  expect(screen.getByText('0.99')).toBeTruthy();
+});
+
+test('cancelling asks first, then tells the server', async () => {
+  server
+    .on('GET /api/runs/run-1', () => ({ body: DETAIL }))
+    .on('POST /api/runs/run-1/cancel', () => ({ body: { ...DETAIL, cancel_requested: true } }));
+  const { user } = openPage('/runs/run-1?tab=config');
+  await user.click(await screen.findByRole('button', { name: 'Cancel run' }));
+  await user.click(await screen.findByRole('button', { name: 'Yes, cancel it' }));
+  expect(await screen.findByText('cancelling')).toBeTruthy();
+  expect(server.bodiesOf('POST', '/api/runs/run-1/cancel')).toHaveLength(1);
+});

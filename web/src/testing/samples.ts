@@ -1,0 +1,101 @@
+/** Plausible answers of the server. */
+import type { Choices, RunDetail, RunSummary } from '@/client/schema.gen';
+
+export const DEFAULTS = {
+  task: 'FetchPush',
+  loop: { epochs: 20, batch_size: 1024 },
+  agent: { hidden_sizes: [256, 256], gamma: 0.98 },
+  compute: { device: 'auto' },
+};
+
+/** A small config schema of the same kind as the real one. */
+export const CONFIG_SCHEMA = {
+  type: 'object',
+  $defs: {
+    LoopConfig: {
+      description: 'How much is collected.',
+      properties: {
+        epochs: { type: 'integer', exclusiveMinimum: 0, description: 'Epochs of training.' },
+        batch_size: { type: 'integer', exclusiveMinimum: 0, description: 'Transitions in each update.' },
+      },
+    },
+    AgentConfig: {
+      properties: {
+        hidden_sizes: { type: 'array', items: { type: 'integer', exclusiveMinimum: 0 } },
+        gamma: { type: 'number', exclusiveMinimum: 0, exclusiveMaximum: 1 },
+      },
+    },
+    ComputeConfig: { properties: { device: { type: 'string', enum: ['auto', 'cpu', 'cuda'] } } },
+  },
+  properties: {
+    task: { type: 'string' },
+    loop: { $ref: '#/$defs/LoopConfig' },
+    agent: { $ref: '#/$defs/AgentConfig' },
+    compute: { $ref: '#/$defs/ComputeConfig' },
+  },
+};
+
+export const CHOICES: Choices = {
+  tasks: [
+    {
+      name: 'FetchPush',
+      goal_text: 'Push the block to the target.',
+      obs_size: 25,
+      goal_size: 3,
+      robot_action_size: 4,
+      object_action_size: 7,
+      episode_length: 50,
+      success_distance: 0.05,
+      picture_url: '/api/tasks/FetchPush/picture',
+    },
+  ],
+  phases: ['locomotion', 'manipulation'],
+  methods: [
+    { name: 'her', title: 'HER-Sparse', summary: 'Hindsight.', needs_locomotion: false },
+    { name: 'her-sldr', title: 'HER-Sparse+SLDR', summary: 'Hindsight and SLDR.', needs_locomotion: true },
+  ],
+  presets: [
+    { name: 'paper', summary: 'As in the paper.' },
+    { name: 'quick', summary: 'Minutes.' },
+  ],
+  config_schema: CONFIG_SCHEMA,
+};
+
+export const RUN: RunSummary = {
+  id: 'run-1',
+  task: 'FetchPush',
+  phase: 'manipulation',
+  method: 'her-sldr',
+  seed: 0,
+  preset: 'quick',
+  state: 'running',
+  reason: null,
+  needs: [],
+  attempt: 1,
+  progress: {
+    epoch: 3,
+    epochs: 20,
+    env_steps: 57_000,
+    episodes: 1140,
+    updates: 3600,
+    fraction: 0.15,
+    success_rate: 0.42,
+    best_success_rate: 0.5,
+    env_steps_per_s: 3123,
+    updates_per_s: 88.2,
+    seconds_left: 200,
+  },
+  created_at: '2026-01-01T10:00:00Z',
+  started_at: '2026-01-01T10:00:05Z',
+  ended_at: null,
+  cancel_requested: false,
+};
+
+export const DETAIL: RunDetail = {
+  ...RUN,
+  config: { ...DEFAULTS, agent: { ...DEFAULTS.agent, gamma: 0.99 } },
+  config_hash: '0123456789abcdef',
+  locomotion_run_id: null,
+  has_policy: false,
+  has_recording: false,
+};

@@ -1,0 +1,48 @@
+"""A session's process: where it begins, and how it ends with its host."""
+
+from __future__ import annotations
+
+import ctypes
+import logging
+import os
+import signal
+import sys
+from multiprocessing.connection import Connection
+
+from sldr_core.errors import SldrError
+from worker.viewer.reports import Broken, Job
+
+NICENESS = 5
+"""Watching gives way to training."""
+
+PR_SET_PDEATHSIG = 1
+
+log = logging.getLogger("sldr.viewer")
+
+
+def serve_session(job: Job, host: Connection) -> None:
+    """Serve one session until the host ends this process; the entry point of the process."""
+    _end_with_host(job.host_pid)
+    logging.basicConfig(stream=sys.stderr, level=logging.WARNING, format="%(asctime)s %(name)s %(message)s")
+    try:
+        # torch and MuJoCo take seconds to import: here, not in the host, and not before the process is mortal.
+        from worker.viewer.session import serve
+
+        serve(job.policy_path, host)
+    except BrokenPipeError:
+        raise SystemExit(1) from None
+    except SldrError as err:
+        host.send(Broken(str(err)))
+    except Exception as err:
+        log.exception("session %s broke down", job.session_id)
+        host.send(Broken(f"The 3D view broke down ({type(err).__name__}: {err})."))
+
+
+def _end_with_host(host_pid: int) -> None:
+    """Make this process gentle, deaf to Ctrl-C (the host ends it in order), and mortal with its host."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    os.nice(NICENESS)
+    if sys.platform == "linux":
+        ctypes.CDLL(None, use_errno=True).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+    if os.getppid() != host_pid:
+        raise SystemExit(1)
