@@ -57,14 +57,18 @@ class Envs:
         self._actor, self._bystander, self._observer = parts.actor, parts.bystander, parts.observer
         self._starts, self._hold = parts.starts, parts.hold
         self._bystander_moves = bystander_moves
-        self._rngs = [np.random.default_rng((seed, index)) for index in range(self.num_envs)]
         self._goal = np.zeros((self.num_envs, spec.goal_size))
+        self.reseed(seed)
         self.reset()
 
     @property
     def model(self) -> mujoco.MjModel:
         """The scene's MuJoCo model."""
         return self.simulation.model
+
+    def reseed(self, seed: int) -> None:
+        """Let simulation `i` draw from a new generator of (`seed`, `i`) at its next reset."""
+        self._rngs = [np.random.default_rng((seed, index)) for index in range(self.num_envs)]
 
     def reset(self, ids: ArrayLike | None = None) -> Observation:
         """Start new episodes in simulations `ids` (all if None); the others are left as they are."""

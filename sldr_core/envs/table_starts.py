@@ -55,7 +55,8 @@ class _TableStarts:
         """Draw x and y [m] around the gripper, not under it, with `shift` added to x."""
         reach = self._scene.object_range
         while True:
-            offset = rng.uniform(-reach, reach, size=2) + (shift, 0.0)
+            offset = rng.uniform(-reach, reach, size=2)
+            offset[0] += shift
             if np.hypot(offset[0], offset[1]) >= MIN_GRIPPER_DISTANCE:
                 return self._gripper[:2] + offset
 
@@ -124,10 +125,8 @@ class TupleStarts(_TableStarts):
         self._shift = scene.start_shift
         self._flat = block * np.arange(scene.objects)
         self._shapes = [np.array([(x, 0.0, z) for x, z in shape.offsets]) for shape in scene.shapes]
-        table = model.geom("table0") if _has_geom(model, "table0") else None
-        body = model.body("table0")
-        half = float((model.geom_size[int(body.geomadr[0])] if table is None else table.size)[0])
-        centre = float(body.pos[0])
+        table = model.body("table0")
+        half, centre = float(model.geom_size[int(table.geomadr[0]), 0]), float(table.pos[0])
         room = half - block / 2 if scene.stay_on_table else np.inf
         self._low, self._high = centre - room, centre + room
 
@@ -143,7 +142,3 @@ class TupleStarts(_TableStarts):
 
     def _is_on_table(self, x: Array) -> bool:
         return bool((x >= self._low).all() and (x <= self._high).all())
-
-
-def _has_geom(model: mujoco.MjModel, name: str) -> bool:
-    return mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_GEOM, name) >= 0

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 from sldr_core.config.tasks.fetch import FETCH_PICK_AND_PLACE, FETCH_PUSH, FETCH_SLIDE
 from sldr_core.config.tasks.hand import HAND_LOCOMOTION_TASKS, HAND_TASKS
@@ -93,7 +93,7 @@ def find_task(name: str, variant: Variant = "ours") -> TaskSpec:
 def _lay_over(record: _Record, changes: Mapping[str, Any]) -> _Record:
     """Return a copy of a record with `changes`; a mapping changes the record that it names."""
     values = {
-        name: _lay_over(getattr(record, name), value) if isinstance(value, Mapping) else value
+        name: _lay_over(getattr(record, name), cast(Mapping[str, Any], value)) if isinstance(value, Mapping) else value
         for name, value in changes.items()
     }
     return replace(record, **values)

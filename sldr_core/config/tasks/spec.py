@@ -219,7 +219,7 @@ class TaskSpec:
     """Discount of the locomotion phase."""
     parts: tuple[Part, ...]
     """The parts that a locomotion model can reward, one critic for each."""
-    original: Mapping[str, Any] = field(default_factory=dict, hash=False)
+    original: Mapping[str, Any] = field(default_factory=dict[str, Any], hash=False)
     """What the authors' code has instead: values of this record, nested; `variant="original"` lays them over it."""
 
     @property

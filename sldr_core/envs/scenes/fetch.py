@@ -62,9 +62,7 @@ def settle_fetch(scene: FetchScene) -> FetchStart:
     return settle_table(scene, build_fetch(scene, (), True, 1.0))
 
 
-def build_table(
-    spec: mujoco.MjSpec, acted: Sequence[int], has_robot: bool, torque_scale: float
-) -> mujoco.MjModel:
+def build_table(spec: mujoco.MjSpec, acted: Sequence[int], has_robot: bool, torque_scale: float) -> mujoco.MjModel:
     """Finish a scene.
 
     Args:
