@@ -49,7 +49,17 @@ FETCH_TABLE = Camera(look_at=(1.3, 0.75, 0.42), distance=1.4, azimuth=138.0, ele
 """The table alone."""
 
 
+_CAMERAS: dict[tuple[str, Phase], Camera] = {
+    ("fetch", "manipulation"): FETCH_ROBOT,
+    ("fetch", "locomotion"): FETCH_TABLE,
+    ("stack", "manipulation"): FETCH_ROBOT,
+    ("stack", "locomotion"): FETCH_TABLE,
+    ("tuple", "manipulation"): FETCH_ROBOT,
+    ("tuple", "locomotion"): FETCH_TABLE,
+}
+"""The camera of each family and phase."""
+
+
 def find_camera(task: TaskSpec, phase: Phase) -> Camera:
     """Return the camera that frames the workspace of a task."""
-    cameras = {("fetch", "manipulation"): FETCH_ROBOT, ("fetch", "locomotion"): FETCH_TABLE}
-    return cameras[task.family, phase]
+    return _CAMERAS[task.family, phase]

@@ -42,7 +42,7 @@ def _stack(objects: int, goal_text: str, episode_length: int, paper_epochs: int)
 
 FETCH_STACK_2 = _stack(
     objects=2,
-    goal_text="Put the second block on the first, which stays where it is.",
+    goal_text="Put the second block on the first, which stays where it is; each ball has its block's colour.",
     episode_length=50,
     paper_epochs=100,
 )

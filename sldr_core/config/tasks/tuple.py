@@ -73,7 +73,7 @@ FETCH_TUPLE_3 = _tuple(
             hinge_angles=(0.0, -pi),
         ),
     ),
-    goal_text="Fold the chain of three blocks into the red shape, one of two.",
+    goal_text="Fold the chain of three blocks into the marked shape, one of two; each ball has its block's colour.",
     paper_epochs=100,
     paper_locomotion_epochs=20,
 )
@@ -106,7 +106,7 @@ FETCH_TUPLE_5 = _tuple(
             hinge_angles=(pi, -pi, -_HALF, pi),
         ),
     ),
-    goal_text="Fold the chain of five blocks into the red shape, one of four.",
+    goal_text="Fold the chain of five blocks into the marked shape, one of four; each ball has its block's colour.",
     paper_epochs=300,
     paper_locomotion_epochs=50,
 )

@@ -46,5 +46,6 @@ def colour_blocks(spec: mujoco.MjSpec, blocks: int) -> None:
         spec.add_material(name=name, rgba=colour, specular=0.0)
         spec.geom(name).material = name
         if index > 0:
-            floor.add_site(name=f"target{index}", size=[MARKER_RADIUS] * 3)
+            # Not at the body's own origin: MuJoCo would take it for fixed there, wherever it is put later.
+            floor.add_site(name=f"target{index}", size=[MARKER_RADIUS] * 3, pos=[0.0, 0.1 * index, 0.5])
         spec.site(f"target{index}").rgba = colour
