@@ -55,7 +55,7 @@ class Envs:
         self.qpos, self.qvel = simulation.qpos, simulation.qvel
         self.mocap_pos, self.mocap_quat = simulation.mocap_pos, simulation.mocap_quat
         self._actor, self._bystander, self._observer = parts.actor, parts.bystander, parts.observer
-        self._starts, self._hold = parts.starts, parts.hold
+        self._starts, self._hold, self._marker = parts.starts, parts.hold, parts.marker
         self._bystander_moves = bystander_moves
         self._goal = np.zeros((self.num_envs, spec.goal_size))
         self.reseed(seed)
@@ -109,7 +109,10 @@ class Envs:
 
     def set_goal(self, goal: ArrayLike, ids: ArrayLike | None = None) -> None:
         """Replace the goals of simulations `ids` by `[len(ids), G]`, in the order of `ids`, or by one `[G]`."""
-        self._goal[self._ids(ids)] = goal
+        chosen = self._ids(ids)
+        self._goal[chosen] = goal
+        if self._marker is not None:
+            self._marker.show(chosen, self._goal[chosen])
 
     def state(self) -> dict[str, Any]:
         """Return everything that decides what comes next: simulations, goals and generators."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from sldr_core.config import FetchScene, HandScene, Phase, Robot, StackScene, TaskSpec, TupleScene
 from sldr_core.envs.fetch import fetch_parts, robot_stays
-from sldr_core.envs.hand import HandActuation, HandObjectObserver, HandRobotObserver, HandStarts
+from sldr_core.envs.hand import HandActuation, HandObjectObserver, HandRobotObserver, HandStarts, TargetMarker
 from sldr_core.envs.parts import EnvParts, ObjectActuation
 from sldr_core.envs.scenes.fetch import build_fetch, settle_fetch
 from sldr_core.envs.scenes.hand import OBJECT, build_hand, without_welds
@@ -74,7 +74,12 @@ def build_hand_env(order: EnvOrder) -> EnvParts:
     simulation = Simulation(model, order.num_envs, order.threads)
     settling = Simulation(without_welds(model), order.num_envs, order.threads)
     hand = HandActuation(simulation)
-    if not order.acts:
-        return EnvParts(simulation, hand, None, HandRobotObserver(simulation), HandStarts(scene, settling), None)
-    actuation = ObjectActuation([simulation.mocap(object_mocap(0), OBJECT)])
-    return EnvParts(simulation, actuation, hand, HandObjectObserver(simulation), HandStarts(scene, settling), None)
+    return EnvParts(
+        simulation=simulation,
+        actor=ObjectActuation([simulation.mocap(object_mocap(0), OBJECT)]) if order.acts else hand,
+        bystander=hand if order.acts else None,
+        observer=HandObjectObserver(simulation) if order.acts else HandRobotObserver(simulation),
+        starts=HandStarts(scene, settling),
+        hold=None,
+        marker=TargetMarker(scene, simulation),
+    )

@@ -97,14 +97,12 @@ class HandStarts:
         settling = self._settling
         ids = np.arange(len(rngs))
         while ids.size:
-            self._settle(ids, np.stack([self._draw_start(rngs[index]) for index in ids]))
+            self._settle(ids, np.stack([self._draw_start(rngs[index]) for index in ids.tolist()]))
             ids = ids[settling.qpos[ids, self._height] <= self._scene.min_height]
         qpos, qvel = settling.qpos[: len(rngs)].copy(), settling.qvel[: len(rngs)].copy()
         poses = qpos[:, self._pose]
         goal = np.stack([self._draw_goal(rng, pose) for rng, pose in zip(rngs, poses, strict=True)])
-        qpos[:, self._target] = goal
-        if self._scene.target_position == "ignore":
-            qpos[:, self._target.start : self._target.start + 3] += TARGET_ASIDE
+        qpos[:, self._target] = _target_pose(self._scene, goal)
         return Start(qpos=qpos, qvel=qvel, goal=goal)
 
     def _settle(self, ids: Ids, qpos: Array) -> None:
@@ -129,6 +127,27 @@ class HandStarts:
         if self._scene.target_rotation == "xyz":
             goal[3:] = _draw_rotation(rng)
         return goal
+
+
+class TargetMarker:
+    """Show goals by the target's body."""
+
+    def __init__(self, scene: HandScene, simulation: Simulation) -> None:
+        self._scene = scene
+        self._simulation = simulation
+        self._target, _ = _free_joint(simulation, TARGET)
+
+    def show(self, ids: Ids, goal: Array) -> None:
+        """Put the targets of simulations `ids` to goals `[len(ids), 7]`."""
+        self._simulation.qpos[ids, self._target] = _target_pose(self._scene, goal)
+
+
+def _target_pose(scene: HandScene, goal: Array) -> Array:
+    """Return where the target stands that shows goals `[N, 7]`."""
+    aside = np.zeros(7)
+    if scene.target_position == "ignore":
+        aside[:3] = TARGET_ASIDE
+    return goal + aside
 
 
 def _draw_rotation(rng: np.random.Generator) -> Array:

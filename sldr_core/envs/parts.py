@@ -12,7 +12,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from sldr_core.envs.simulation import Array, Mocap, Simulation
+from sldr_core.envs.simulation import Array, Ids, Mocap, Simulation
 
 OBJECT_SPEED = np.float32(0.05)
 """Change of an object's target per control step at full action [m, and raw quaternion units]."""
@@ -46,6 +46,14 @@ class Hold(Protocol):
 
     def apply(self) -> None:
         """Write it."""
+        ...
+
+
+class Marker(Protocol):
+    """Show goals in the scene."""
+
+    def show(self, ids: Ids, goal: Array) -> None:
+        """Put the marks of simulations `ids` to goals `[len(ids), G]`."""
         ...
 
 
@@ -91,6 +99,8 @@ class EnvParts:
     """What the one who acts sees."""
     starts: Starts
     hold: Hold | None
+    marker: Marker | None = None
+    """What shows goals that are set by hand, where goals are bodies of the scene."""
 
 
 class ObjectActuation:

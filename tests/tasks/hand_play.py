@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from sldr_core.config import PoseGoal
 from sldr_core.envs import Envs, Observation
 from sldr_core.envs.rotations import euler_from_quaternion, quaternion_from_euler
 
@@ -41,6 +42,7 @@ def pose_slice(envs: Envs) -> slice:
 def proportional_actions(envs: Envs, now: Observation, home: np.ndarray) -> np.ndarray:
     """Return actions `[N, 7]` straight to the goal; where the place does not count, above `home` `[N, 3]`."""
     goal, position, turned = envs.spec.goal, now.achieved[:, :3], now.achieved[:, 3:]
+    assert isinstance(goal, PoseGoal)
     wanted_position = now.goal[:, :3] if goal.distance is not None else home + LIFT
     wanted_turn = now.goal[:, 3:] if goal.angle is not None else turned
     if goal.ignore_z:
