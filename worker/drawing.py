@@ -14,7 +14,7 @@ from sldr_core.config import find_task
 from sldr_core.envs import make_envs
 from sldr_core.errors import SldrError
 from worker.viewer.camera import Camera, find_camera
-from worker.viewer.dress import TARGET_JOINT, dress, goal_sites, has_target_object
+from worker.viewer.dress import dress, goal_sites
 
 PICTURE_SEED = 3
 """A start in which gripper, object and goal stand well apart."""
@@ -57,7 +57,7 @@ def draw(
 
     Args:
         qpos: joint positions, `[nq]`.
-        goal: the task's goal, `[G]`: positions of the markers [m], or the pose of the target object.
+        goal: the task's goal, `[G]`: positions of the markers [m]; a hand's target is drawn where `qpos` has it.
 
     Raises:
         EmptyPicture: nothing was drawn.
@@ -89,9 +89,10 @@ def check_frame(frame: NDArray[np.uint8]) -> None:
 
 
 def _place_goal(model: mujoco.MjModel, data: mujoco.MjData, goal: NDArray[np.floating]) -> None:
-    """Show the goal; positions are forwarded, or the first frame would not show it."""
-    if has_target_object(model):
-        data.joint(TARGET_JOINT).qpos[:] = goal
+    """Move the sites that mark the goal; a hand's target is a body, which stands at its goal already.
+
+    Positions are forwarded, or the first frame would not show it.
+    """
     mujoco.mj_forward(model, data)
     for index, site in enumerate(goal_sites(model)):
         body = int(model.site_bodyid[site])

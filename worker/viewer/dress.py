@@ -11,9 +11,6 @@ from numpy.typing import NDArray
 GOAL_SITE = "target0"
 """The site that marks the goal, or the first of several: `target0`, `target1`, ..."""
 
-TARGET_JOINT = "target:joint"
-"""The joint of the object that shows a goal's pose, in the scenes of the hand."""
-
 GOAL_RGBA = (0.86, 0.03, 0.03, 0.72)
 """Translucent red."""
 
@@ -47,6 +44,8 @@ _PLAIN_RGB = 0.2
 _DEFAULT_RGBA = (0.5, 0.5, 0.5, 1.0)
 _OBJECT_PREFIX = "object"
 _MOCAP_SUFFIX = ":mocap"
+_ENDS_OF_A_PEN = (":top", ":bottom")
+"""Sites in two colours: without them a pen looks the same both ways round."""
 
 
 def dress(model: mujoco.MjModel) -> mujoco.MjModel:
@@ -96,11 +95,6 @@ def goal_sites(model: mujoco.MjModel) -> list[int]:
     return [named[name] for index in range(model.nsite) if (name := f"{_GOAL_PREFIX}{index}") in named]
 
 
-def has_target_object(model: mujoco.MjModel) -> bool:
-    """Tell whether a goal is shown by an object in its pose."""
-    return mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, TARGET_JOINT) >= 0
-
-
 def _light_room(model: mujoco.MjModel) -> None:
     direction = np.asarray(LAMP_DIRECTION)
     model.light_castshadow[:1] = 1
@@ -120,11 +114,12 @@ def _light_room(model: mujoco.MjModel) -> None:
 
 
 def _leave_only_the_goal_marked(model: mujoco.MjModel) -> None:
-    """Hide every site but the goals; where there are several, each keeps the colour of its object."""
+    """Hide every site but the goals and the ends of a pen; where there are several, each keeps the colour of its object."""
     goals = goal_sites(model)
     for site in range(model.nsite):
         if site not in goals:
-            model.site_rgba[site, 3] = 0.0
+            if not model.site(site).name.endswith(_ENDS_OF_A_PEN):
+                model.site_rgba[site, 3] = 0.0
             continue
         model.site_size[site] = GOAL_RADIUS
         if len(goals) == 1:
