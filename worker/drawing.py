@@ -14,7 +14,7 @@ from sldr_core.config import find_task
 from sldr_core.envs import make_envs
 from sldr_core.errors import SldrError
 from worker.viewer.camera import Camera, find_camera
-from worker.viewer.dress import GOAL_SITE, dress
+from worker.viewer.dress import dress, goal_sites
 
 PICTURE_SEED = 3
 """A start in which gripper, object and goal stand well apart."""
@@ -38,10 +38,10 @@ def draw_task(task: str, width: int, height: int) -> Image.Image:
         EmptyPicture: nothing was drawn.
     """
     spec = find_task(task)
-    envs = make_envs(task, seed=PICTURE_SEED)
+    envs = make_envs(task, seed=PICTURE_SEED, testing=True)
     goal = envs.observe().goal[0]
     size = (OVERSAMPLING * width, OVERSAMPLING * height)
-    frame = draw(envs.model, envs.qpos[0], goal[:3], find_camera(spec, "manipulation"), *size)
+    frame = draw(envs.model, envs.qpos[0], goal, find_camera(spec, "manipulation"), *size)
     return Image.fromarray(frame).resize((width, height), Image.Resampling.LANCZOS)
 
 
@@ -57,7 +57,7 @@ def draw(
 
     Args:
         qpos: joint positions, `[nq]`.
-        goal: where the goal marker stands [m], `[3]`.
+        goal: the task's goal, `[G]`: positions of the markers [m]; a hand's target is drawn where `qpos` has it.
 
     Raises:
         EmptyPicture: nothing was drawn.
@@ -89,9 +89,13 @@ def check_frame(frame: NDArray[np.uint8]) -> None:
 
 
 def _place_goal(model: mujoco.MjModel, data: mujoco.MjData, goal: NDArray[np.floating]) -> None:
-    """Put the goal marker to `goal`; positions are forwarded, or the first frame would not show it."""
+    """Move the sites that mark the goal; a hand's target is a body, which stands at its goal already.
+
+    Positions are forwarded, or the first frame would not show it.
+    """
     mujoco.mj_forward(model, data)
-    site = model.site(GOAL_SITE).id
-    body = int(model.site_bodyid[site])
-    model.site_pos[site] = data.xmat[body].reshape(3, 3).T @ (goal - data.xpos[body])
+    for index, site in enumerate(goal_sites(model)):
+        body = int(model.site_bodyid[site])
+        marked = goal[3 * index : 3 * index + 3]
+        model.site_pos[site] = data.xmat[body].reshape(3, 3).T @ (marked - data.xpos[body])
     mujoco.mj_forward(model, data)

@@ -11,7 +11,7 @@ from sldr_core.config import AgentConfig
 from sldr_core.nets.mlp import Mlp
 from sldr_core.nets.normalizer import Normalizer
 from sldr_core.nets.transitions import Transitions
-from sldr_core.nets.views import OBJECT_STATE_SIZE, transition_features
+from sldr_core.nets.views import transition_features
 
 
 class InverseLearner:
@@ -23,9 +23,15 @@ class InverseLearner:
     """
 
     def __init__(
-        self, action_size: int, config: AgentConfig, generator: torch.Generator, device: torch.device, autocast: bool
+        self,
+        state_size: int,
+        action_size: int,
+        config: AgentConfig,
+        generator: torch.Generator,
+        device: torch.device,
+        autocast: bool,
     ) -> None:
-        inputs = 2 * OBJECT_STATE_SIZE
+        inputs = 2 * state_size
         self.normalizer = Normalizer(inputs).to(device)
         self.net = Mlp((inputs, *config.hidden_sizes, action_size), generator).to(device)
         self._optimiser = torch.optim.Adam(self.net.parameters(), lr=config.learning_rate, fused=True)

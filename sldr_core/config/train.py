@@ -10,7 +10,7 @@ from pydantic import ConfigDict, Field, TypeAdapter, ValidationError, model_vali
 from pydantic.dataclasses import dataclass
 
 from sldr_core.config.methods import METHODS, MethodSpec, find_method
-from sldr_core.config.tasks import TASKS, Phase, TaskSpec, find_task
+from sldr_core.config.tasks import LOCOMOTION_TASKS, TASKS, Phase, TaskSpec, Variant, find_task
 from sldr_core.errors import InvalidConfig, UnknownName
 
 _FROZEN = ConfigDict(extra="forbid", use_attribute_docstrings=True, allow_inf_nan=False)
@@ -18,6 +18,9 @@ _FROZEN = ConfigDict(extra="forbid", use_attribute_docstrings=True, allow_inf_na
 Positive = Annotated[int, Field(gt=0)]
 Share = Annotated[float, Field(ge=0.0, le=1.0)]
 Rate = Annotated[float, Field(gt=0.0, lt=1.0)]
+
+Robot = Literal["auto", "absent", "still", "random"]
+"""What the robot does while the object learns."""
 
 
 @dataclass(frozen=True, config=_FROZEN)
@@ -98,10 +101,15 @@ class SldrConfig:
 
 @dataclass(frozen=True, config=_FROZEN)
 class SceneConfig:
-    """What stands in the simulated scene."""
+    """Whose numbers the task has, and what stands in its scene."""
 
-    locomotion_robot: Literal["absent", "still", "random"] = "absent"
-    """What the robot does while the object learns: removed, kept still, or acting at random."""
+    variant: Variant = "ours"
+    """`ours`: the task as the paper describes it; `original`: with the numbers of the authors' code."""
+    locomotion_robot: Robot = "auto"
+    """What the robot does while the object learns: removed, kept still, or acting at random.
+
+    `auto` removes it, but keeps it still where the object lies on it.
+    """
 
 
 @dataclass(frozen=True, config=_FROZEN)
@@ -145,8 +153,7 @@ class TrainConfig:
 
     @model_validator(mode="after")
     def _check_names_and_sizes(self) -> TrainConfig:
-        if self.task not in TASKS:
-            raise ValueError(f"task: {UnknownName('task', self.task, TASKS)}")
+        self._check_task()
         if self.method not in METHODS:
             raise ValueError(f"method: {UnknownName('method', self.method, METHODS)}")
         if self.phase == "locomotion" and self.method_spec.needs_locomotion:
@@ -158,10 +165,21 @@ class TrainConfig:
             )
         return self
 
+    def _check_task(self) -> None:
+        if self.task in LOCOMOTION_TASKS and self.phase != "locomotion":
+            raise ValueError(f"task: {self.task} exists for locomotion only; the robot has no task of this name.")
+        if self.task not in TASKS | LOCOMOTION_TASKS:
+            raise ValueError(f"task: {UnknownName('task', self.task, TASKS)}")
+        learnt_in = self.task_spec.locomotion_tasks
+        if self.phase == "locomotion" and self.task not in learnt_in:
+            raise ValueError(f"task: the objects of {self.task} learn in {' and '.join(learnt_in)}; choose that.")
+        if self.task_spec.family == "hand" and self.scene.locomotion_robot == "absent":
+            raise ValueError("scene.locomotion_robot: the object lies in the hand; choose 'auto', 'still' or 'random'.")
+
     @property
     def task_spec(self) -> TaskSpec:
         """The task's numbers."""
-        return find_task(self.task)
+        return find_task(self.task, self.scene.variant)
 
     @property
     def method_spec(self) -> MethodSpec:

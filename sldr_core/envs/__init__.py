@@ -9,21 +9,23 @@
 
 from __future__ import annotations
 
-from sldr_core.config import PHASES, Phase, find_task
+from collections.abc import Callable
+
+from sldr_core.config import PHASES, Phase, Robot, TaskSpec, Variant, find_task
 from sldr_core.envs.envs import Envs, Observation
-from sldr_core.envs.fetch import (
-    FetchStarts,
-    FingerHold,
-    GripperActuation,
-    ObjectActuation,
-    ObjectObserver,
-    RobotObserver,
-)
-from sldr_core.envs.scenes.fetch import Robot, build_fetch, settle_fetch
-from sldr_core.envs.simulation import Simulation
-from sldr_core.errors import UnknownName
+from sldr_core.envs.families import EnvOrder, build_fetch_env, build_hand_env, build_stack_env, build_tuple_env
+from sldr_core.envs.parts import EnvParts
+from sldr_core.errors import InvalidConfig, UnknownName
 
 __all__ = ["Envs", "Observation", "make_envs"]
+
+FAMILIES: dict[str, Callable[[EnvOrder], EnvParts]] = {
+    "fetch": build_fetch_env,
+    "stack": build_stack_env,
+    "tuple": build_tuple_env,
+    "hand": build_hand_env,
+}
+"""How the environment of each family is put together."""
 
 
 def make_envs(
@@ -32,7 +34,9 @@ def make_envs(
     num_envs: int = 1,
     seed: int = 0,
     threads: int = 1,
-    robot: Robot = "absent",
+    robot: Robot = "auto",
+    testing: bool = False,
+    variant: Variant = "ours",
 ) -> Envs:
     """Build the environments of a task's phase.
 
@@ -43,27 +47,24 @@ def make_envs(
         seed: simulation `i` draws from its own generator of (`seed`, `i`).
         threads: threads that step the simulations; results do not depend on it.
         robot: what the robot does in locomotion; of no meaning in manipulation.
+        testing: whether goals are drawn as in tests, where a task has such a difference.
+        variant: whose numbers the task has.
 
     Raises:
         UnknownName: no such task or phase.
+        InvalidConfig: the task has no such phase, or no such robot.
     """
-    spec = find_task(task)
+    spec = find_task(task, variant)
     if phase not in PHASES:
         raise UnknownName("phase", phase, PHASES)
-    simulation = Simulation(build_fetch(spec, phase, robot), num_envs, threads)
-    robot_acts = phase == "manipulation" or robot != "absent"
-    gripper = GripperActuation(simulation, spec.gripper_blocked) if robot_acts else None
-    return Envs(
-        spec=spec,
-        phase=phase,
-        simulation=simulation,
-        actor=ObjectActuation(simulation)
-        if phase == "locomotion"
-        else GripperActuation(simulation, spec.gripper_blocked),
-        bystander=gripper if phase == "locomotion" else None,
-        bystander_moves=robot == "random",
-        observer=RobotObserver(simulation) if phase == "manipulation" else ObjectObserver(simulation),
-        starts=FetchStarts(spec, settle_fetch(spec), simulation),
-        hold=FingerHold(simulation) if spec.gripper_blocked else None,
-        seed=seed,
-    )
+    _check(spec, phase, robot)
+    parts = FAMILIES[spec.family](EnvOrder(spec, phase, robot, num_envs, threads, testing))
+    return Envs(spec=spec, phase=phase, parts=parts, bystander_moves=robot == "random", seed=seed)
+
+
+def _check(spec: TaskSpec, phase: Phase, robot: Robot) -> None:
+    if phase == "locomotion" and spec.name not in spec.locomotion_tasks:
+        learnt_in = " and ".join(spec.locomotion_tasks)
+        raise InvalidConfig({"task": f"the objects of {spec.name} learn in {learnt_in}; choose that."})
+    if phase == "locomotion" and spec.family == "hand" and robot == "absent":
+        raise InvalidConfig({"robot": "the object lies in the hand; choose 'auto', 'still' or 'random'."})

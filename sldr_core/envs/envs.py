@@ -10,13 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sldr_core.config import Phase, TaskSpec
-from sldr_core.envs.fetch import Actuation, FetchStarts, FingerHold, Observer
+from sldr_core.envs.parts import EnvParts
 from sldr_core.envs.rewards import is_success, sparse_reward
-from sldr_core.envs.scenes.fetch import SUBSTEPS
-from sldr_core.envs.simulation import Array, Ids, Simulation
-
-OBJECT_STATE_SIZE = 12
-"""Entries of what a Fetch object sees of itself."""
+from sldr_core.envs.scenes.welds import SUBSTEPS
+from sldr_core.envs.simulation import Array, Ids
 
 
 @dataclass(frozen=True)
@@ -43,33 +40,25 @@ class Envs:
         *,
         spec: TaskSpec,
         phase: Phase,
-        simulation: Simulation,
-        actor: Actuation,
-        bystander: Actuation | None,
+        parts: EnvParts,
         bystander_moves: bool,
-        observer: Observer,
-        starts: FetchStarts,
-        hold: FingerHold | None,
         seed: int,
     ) -> None:
         self.spec = spec
         self.phase = phase
-        self.simulation = simulation
+        self.simulation = simulation = parts.simulation
         self.num_envs = simulation.num_envs
-        self.obs_size = spec.obs_size if phase == "manipulation" else OBJECT_STATE_SIZE
+        self.obs_size = spec.obs_size if phase == "manipulation" else spec.object_state_size
         self.goal_size = spec.goal_size
         self.action_size = spec.robot_action_size if phase == "manipulation" else spec.object_action_size
         self.episode_length = spec.episode_length
         self.qpos, self.qvel = simulation.qpos, simulation.qvel
         self.mocap_pos, self.mocap_quat = simulation.mocap_pos, simulation.mocap_quat
-        self._actor = actor
-        self._bystander = bystander
+        self._actor, self._bystander, self._observer = parts.actor, parts.bystander, parts.observer
+        self._starts, self._hold, self._marker = parts.starts, parts.hold, parts.marker
         self._bystander_moves = bystander_moves
-        self._observer = observer
-        self._starts = starts
-        self._hold = hold
-        self._rngs = [np.random.default_rng((seed, index)) for index in range(self.num_envs)]
         self._goal = np.zeros((self.num_envs, spec.goal_size))
+        self.reseed(seed)
         self.reset()
 
     @property
@@ -77,14 +66,16 @@ class Envs:
         """The scene's MuJoCo model."""
         return self.simulation.model
 
+    def reseed(self, seed: int) -> None:
+        """Let simulation `i` draw from a new generator of (`seed`, `i`) at its next reset."""
+        self._rngs = [np.random.default_rng((seed, index)) for index in range(self.num_envs)]
+
     def reset(self, ids: ArrayLike | None = None) -> Observation:
         """Start new episodes in simulations `ids` (all if None); the others are left as they are."""
         chosen = np.sort(self._ids(ids))
-        starts = [self._starts.draw(self._rngs[index]) for index in chosen]
-        self._goal[chosen] = [start.goal for start in starts]
-        self.simulation.reset(
-            chosen, np.stack([start.qpos for start in starts]), np.stack([start.qvel for start in starts])
-        )
+        start = self._starts.draw([self._rngs[index] for index in chosen])
+        self._goal[chosen] = start.goal
+        self.simulation.reset(chosen, start.qpos, start.qvel)
         return self.observe()
 
     def step(self, action: ArrayLike) -> Observation:
@@ -110,15 +101,18 @@ class Envs:
 
     def reward(self, achieved: NDArray[np.floating], goal: NDArray[np.floating]) -> NDArray[np.float32]:
         """Return the sparse reward of achieved and desired goals `[..., G]`, as `[...]`."""
-        return sparse_reward(achieved, goal, self.spec.success_distance)
+        return sparse_reward(self.spec.goal, achieved, goal)
 
     def success(self, achieved: NDArray[np.floating], goal: NDArray[np.floating]) -> NDArray[np.bool_]:
         """Tell which achieved goals `[..., G]` count as success, as `[...]`."""
-        return is_success(achieved, goal, self.spec.success_distance)
+        return is_success(self.spec.goal, achieved, goal)
 
     def set_goal(self, goal: ArrayLike, ids: ArrayLike | None = None) -> None:
         """Replace the goals of simulations `ids` by `[len(ids), G]`, in the order of `ids`, or by one `[G]`."""
-        self._goal[self._ids(ids)] = goal
+        chosen = self._ids(ids)
+        self._goal[chosen] = goal
+        if self._marker is not None:
+            self._marker.show(chosen, self._goal[chosen])
 
     def state(self) -> dict[str, Any]:
         """Return everything that decides what comes next: simulations, goals and generators."""

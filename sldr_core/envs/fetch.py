@@ -1,46 +1,62 @@
-"""The parts of a Fetch environment: how an action moves the scene, what is observed, where episodes start.
+"""The parts of the environments around the Fetch robot, for any number of objects.
 
-`N` simulations. Velocities in observations are per control step, as in the reference.
+`N` simulations, `n` objects. Velocities in observations are per control step, as in the reference.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Protocol
+from collections.abc import Sequence
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from sldr_core.config import TaskSpec
+from sldr_core.config import Phase, Robot, TableScene
+from sldr_core.envs.parts import EnvParts, ObjectActuation, Starts
 from sldr_core.envs.rotations import euler_from_matrix
-from sldr_core.envs.scenes.fetch import OBJECT_MOCAP, SUBSTEPS, FetchStart
+from sldr_core.envs.scenes.welds import SUBSTEPS, object_mocap
 from sldr_core.envs.simulation import Array, Simulation
 
 GRIPPER_SPEED = np.float32(0.05)
 """Change of the gripper's target per control step at full action [m]."""
 
-OBJECT_SPEED = np.float32(0.05)
-"""Change of the object's target per control step at full action [m, and raw quaternion units]."""
-
-MIN_GRIPPER_DISTANCE = 0.1
-"""An object never starts nearer to the gripper than this, in the plane [m]."""
-
-AIR_PROBABILITY = 0.5
-"""Share of goals above the table, where the task has such goals."""
-
-MAX_AIR_HEIGHT = 0.45
-"""Highest goal above the table [m]."""
-
 _FINGERS = ("robot0:r_gripper_finger_joint", "robot0:l_gripper_finger_joint")
 
 
-class Actuation(Protocol):
-    """Turn actions into targets of the physics."""
+def robot_stays(phase: Phase, robot: Robot) -> bool:
+    """Tell whether the robot is in the scene: in locomotion it is removed unless told otherwise."""
+    return phase == "manipulation" or robot in ("still", "random")
 
-    def apply(self, action: NDArray[np.float32]) -> None:
-        """Set the targets for the next control step from actions `[N, A]` in [-1, 1]."""
-        ...
+
+def fetch_parts(
+    scene: TableScene, objects: int, acted: Sequence[int], phase: Phase, simulation: Simulation, starts: Starts
+) -> EnvParts:
+    """Put the parts of a scene around the Fetch robot together.
+
+    Args:
+        scene: the scene.
+        objects: objects that are observed, `n`.
+        acted: those that move themselves in locomotion.
+        phase: who acts.
+        simulation: the scene's simulations.
+        starts: where episodes start.
+    """
+    has_robot = simulation.has_body("robot0:mocap")
+    gripper = GripperActuation(simulation, scene.gripper_blocked) if has_robot else None
+    if phase == "manipulation":
+        assert gripper is not None
+        actor, bystander, observer = gripper, None, RobotObserver(simulation, objects)
+    else:
+        mocaps = [simulation.mocap(object_mocap(index), f"object{index}") for index in acted]
+        actor, bystander, observer = ObjectActuation(mocaps), gripper, ObjectObserver(simulation, objects)
+    return EnvParts(
+        simulation=simulation,
+        actor=actor,
+        bystander=bystander,
+        observer=observer,
+        starts=starts,
+        hold=FingerHold(simulation) if scene.gripper_blocked else None,
+    )
 
 
 class GripperActuation:
@@ -64,53 +80,51 @@ class GripperActuation:
             self._simulation.ctrl[:] = base + opening
 
 
-class ObjectActuation:
-    """Move the object itself by a mocap weld: position change and raw quaternion change (paper §5)."""
+class _Objects:
+    """Read positions, rotations and velocities of n objects off a scene."""
 
-    def __init__(self, simulation: Simulation) -> None:
-        self._mocap = simulation.mocap(OBJECT_MOCAP, "object0")
+    def __init__(self, simulation: Simulation, objects: int) -> None:
+        self._sites = [simulation.site(f"object{index}") for index in range(objects)]
+        self._dt = SUBSTEPS * simulation.model.opt.timestep
 
-    def apply(self, action: NDArray[np.float32]) -> None:
-        """Set the object's targets from `[N, 7]`."""
-        self._mocap.pull(OBJECT_SPEED * action[:, :3], OBJECT_SPEED * action[:, 3:7])
+    def positions(self) -> Array:
+        """Return centres [m], `[N, n, 3]`."""
+        return np.stack([site.pos for site in self._sites], axis=1)
 
+    def eulers(self) -> Array:
+        """Return Euler angles [rad], `[N, n, 3]`."""
+        return euler_from_matrix(np.stack([site.mat for site in self._sites], axis=1))
 
-class Observer(Protocol):
-    """Read observations and achieved goals off the scene."""
-
-    def observe(self) -> Array:
-        """Return observations `[N, D]`."""
-        ...
-
-    def achieved(self) -> Array:
-        """Return achieved goals `[N, G]`."""
-        ...
+    def velocities(self) -> tuple[Array, Array]:
+        """Return linear [m] and angular [rad] velocities per control step, each `[N, n, 3]`."""
+        linear, angular = zip(*(site.velocity() for site in self._sites), strict=True)
+        return np.stack(linear, axis=1) * self._dt, np.stack(angular, axis=1) * self._dt
 
 
 class ObjectObserver:
-    """See the object alone: position, Euler angles, linear and angular velocity; `D` = 12."""
+    """See the objects alone: positions, Euler angles, linear and angular velocities; `D` = 12 n."""
 
-    def __init__(self, simulation: Simulation) -> None:
-        self._object = simulation.site("object0")
-        self._dt = SUBSTEPS * simulation.model.opt.timestep
+    def __init__(self, simulation: Simulation, objects: int) -> None:
+        self._objects = _Objects(simulation, objects)
 
     def observe(self) -> Array:
-        """Return the object's state `[N, 12]`."""
-        linear, angular = self._object.velocity()
-        euler = euler_from_matrix(self._object.mat)
-        return np.concatenate([self._object.pos, euler, linear * self._dt, angular * self._dt], axis=1)
+        """Return the objects' state `[N, 12 n]`."""
+        positions = self._objects.positions()
+        seen = (positions, self._objects.eulers(), *self._objects.velocities())
+        return np.concatenate([values.reshape(len(positions), -1) for values in seen], axis=1)
 
     def achieved(self) -> Array:
-        """Return the object's position [m], `[N, 3]`."""
-        return self._object.pos.copy()
+        """Return the objects' positions [m], `[N, 3 n]`."""
+        positions = self._objects.positions()
+        return positions.reshape(len(positions), -1)
 
 
 class RobotObserver:
-    """See what the robot sees, in the reference's order; `D` = 25."""
+    """See what the robot sees, in the reference's order; `D` = 10 + 15 n."""
 
-    def __init__(self, simulation: Simulation) -> None:
+    def __init__(self, simulation: Simulation, objects: int) -> None:
         self._simulation = simulation
-        self._object = simulation.site("object0")
+        self._objects = _Objects(simulation, objects)
         self._grip = simulation.site("robot0:grip")
         model = simulation.model
         self._finger_qpos = [int(model.joint(name).qposadr[0]) for name in _FINGERS]
@@ -118,77 +132,31 @@ class RobotObserver:
         self._dt = SUBSTEPS * model.opt.timestep
 
     def observe(self) -> Array:
-        """Return observations `[N, 25]`.
+        """Return observations `[N, 10 + 15 n]`.
 
-        Grip position 3, object position 3, their difference 3, fingers 2, the object's Euler angles 3, its velocity
-        relative to the grip 3, its spin 3, the grip's velocity 3, the fingers' velocities 2.
+        Grip position 3, object positions 3 n, their differences 3 n, fingers 2, the objects' Euler angles 3 n, their
+        velocities relative to the grip 3 n, their spins 3 n, the grip's velocity 3, the fingers' velocities 2.
         """
-        linear, angular = self._object.velocity()
-        grip_velocity = self._grip.velocity()[0] * self._dt
-        return np.concatenate(
-            [
-                self._grip.pos,
-                self._object.pos,
-                self._object.pos - self._grip.pos,
-                self._simulation.qpos[:, self._finger_qpos],
-                euler_from_matrix(self._object.mat),
-                linear * self._dt - grip_velocity,
-                angular * self._dt,
-                grip_velocity,
-                self._simulation.qvel[:, self._finger_dof] * self._dt,
-            ],
-            axis=1,
+        positions = self._objects.positions()
+        linear, angular = self._objects.velocities()
+        grip, grip_velocity = self._grip.pos, self._grip.velocity()[0] * self._dt
+        seen = (
+            grip,
+            positions,
+            positions - grip[:, None],
+            self._simulation.qpos[:, self._finger_qpos],
+            self._objects.eulers(),
+            linear - grip_velocity[:, None],
+            angular,
+            grip_velocity,
+            self._simulation.qvel[:, self._finger_dof] * self._dt,
         )
+        return np.concatenate([values.reshape(len(positions), -1) for values in seen], axis=1)
 
     def achieved(self) -> Array:
-        """Return the object's position [m], `[N, 3]`."""
-        return self._object.pos.copy()
-
-
-@dataclass(frozen=True)
-class Start:
-    """Where one episode starts and what it is to reach."""
-
-    qpos: NDArray[np.float64]
-    """`[nq]`."""
-    qvel: NDArray[np.float64]
-    """`[nv]`."""
-    goal: NDArray[np.float64]
-    """`[G]` [m]."""
-
-
-class FetchStarts:
-    """Draw starts and goals around the gripper's start, as the reference does."""
-
-    def __init__(self, task: TaskSpec, start: FetchStart, simulation: Simulation) -> None:
-        self._task = task
-        self._start = start
-        model = simulation.model
-        self._object = int(model.joint("object0:joint").qposadr[0])
-        has_robot = model.nq == start.qpos.size
-        self._qpos = start.qpos if has_robot else start.object_pose
-        self._qvel = start.qvel if has_robot else np.zeros(model.nv)
-
-    def draw(self, rng: np.random.Generator) -> Start:
-        """Draw one episode's start."""
-        qpos = self._qpos.copy()
-        qpos[self._object : self._object + 2] = self._draw_object(rng)
-        return Start(qpos=qpos, qvel=self._qvel, goal=self._draw_goal(rng))
-
-    def _draw_object(self, rng: np.random.Generator) -> NDArray[np.float64]:
-        reach = self._task.object_range
-        while True:
-            offset = rng.uniform(-reach, reach, size=2)
-            if np.hypot(offset[0], offset[1]) >= MIN_GRIPPER_DISTANCE:
-                return self._start.gripper_pos[:2] + offset
-
-    def _draw_goal(self, rng: np.random.Generator) -> NDArray[np.float64]:
-        reach = self._task.target_range
-        goal = self._start.gripper_pos + rng.uniform(-reach, reach, size=3) + self._task.target_offset
-        goal[2] = self._start.object_height
-        if self._task.target_in_the_air and rng.uniform() < AIR_PROBABILITY:
-            goal[2] += rng.uniform(0.0, MAX_AIR_HEIGHT)
-        return goal
+        """Return the objects' positions [m], `[N, 3 n]`."""
+        positions = self._objects.positions()
+        return positions.reshape(len(positions), -1)
 
 
 class FingerHold:
@@ -196,14 +164,10 @@ class FingerHold:
 
     def __init__(self, simulation: Simulation) -> None:
         self._simulation = simulation
-        names = [name for name in _FINGERS if _has_joint(simulation.model, name)]
+        names = [name for name in _FINGERS if simulation.has_joint(name)]
         self._qpos = [int(simulation.model.joint(name).qposadr[0]) for name in names]
 
     def apply(self) -> None:
         """Write the fingers' positions."""
         self._simulation.qpos[:, self._qpos] = 0.0
         self._simulation.forward()
-
-
-def _has_joint(model: mujoco.MjModel, name: str) -> bool:
-    return mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, name) >= 0

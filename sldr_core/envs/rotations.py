@@ -27,3 +27,72 @@ def euler_from_matrix(matrix: NDArray[np.float64]) -> NDArray[np.float64]:
         np.arctan2(matrix[..., 1, 0], matrix[..., 1, 1]),
     )
     return np.stack([x, y, z], axis=-1)
+
+
+def angle_between(a: NDArray[np.floating], b: NDArray[np.floating]) -> NDArray[np.floating]:
+    """Return the angle [rad] of the rotation from `b` to `a`, in [0, pi].
+
+    Args:
+        a, b: unit quaternions `[..., 4]`, w first; their signs mean nothing.
+    """
+    return 2.0 * np.arccos(np.clip(np.abs((a * b).sum(axis=-1)), 0.0, 1.0))
+
+
+def angle_between_axes(a: NDArray[np.floating], b: NDArray[np.floating]) -> NDArray[np.floating]:
+    """Return the angle [rad] from `b` to `a` once `a` has been given the third Euler angle of `b`, `[...]`."""
+    euler = euler_from_quaternion(a)
+    euler[..., 2] = euler_from_quaternion(b)[..., 2]
+    return angle_between(quaternion_from_euler(euler), b)
+
+
+def euler_from_quaternion(quaternion: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Return the angles x, y, z [rad] of unit quaternions `[..., 4]`, as `[..., 3]`."""
+    return euler_from_matrix(matrix_from_quaternion(quaternion))
+
+
+def matrix_from_quaternion(quaternion: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Return the rotation matrices `[..., 3, 3]` of quaternions `[..., 4]`, w first."""
+    w, x, y, z = np.moveaxis(np.asarray(quaternion, dtype=np.float64), -1, 0)
+    scale = 2.0 / (w * w + x * x + y * y + z * z)
+    rows = [
+        [1.0 - scale * (y * y + z * z), scale * (x * y - w * z), scale * (x * z + w * y)],
+        [scale * (x * y + w * z), 1.0 - scale * (x * x + z * z), scale * (y * z - w * x)],
+        [scale * (x * z - w * y), scale * (y * z + w * x), 1.0 - scale * (x * x + y * y)],
+    ]
+    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+
+
+def quaternion_from_euler(euler: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Return the unit quaternions `[..., 4]`, w first, of angles x, y, z [rad] `[..., 3]`."""
+    half = 0.5 * np.asarray(euler, dtype=np.float64)
+    (cx, cy, cz), (sx, sy, sz) = np.moveaxis(np.cos(half), -1, 0), np.moveaxis(np.sin(half), -1, 0)
+    return np.stack(
+        [
+            cx * cy * cz - sx * sy * sz,
+            sx * cy * cz + cx * sy * sz,
+            cx * sy * cz - sx * cy * sz,
+            cx * cy * sz + sx * sy * cz,
+        ],
+        axis=-1,
+    )
+
+
+def multiply_quaternions(a: NDArray[np.floating], b: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Return the rotation `b` followed by `a`, as quaternions `[..., 4]`, w first."""
+    aw, ax, ay, az = np.moveaxis(np.asarray(a, dtype=np.float64), -1, 0)
+    bw, bx, by, bz = np.moveaxis(np.asarray(b, dtype=np.float64), -1, 0)
+    return np.stack(
+        [
+            aw * bw - ax * bx - ay * by - az * bz,
+            aw * bx + ax * bw + ay * bz - az * by,
+            aw * by + ay * bw + az * bx - ax * bz,
+            aw * bz + az * bw + ax * by - ay * bx,
+        ],
+        axis=-1,
+    )
+
+
+def quaternion_about(axis: NDArray[np.floating], angle: float) -> NDArray[np.float64]:
+    """Return the unit quaternion `[4]`, w first, of a turn by `angle` [rad] about `axis` `[3]` of any length."""
+    direction = axis / np.linalg.norm(axis)
+    return np.array([np.cos(angle / 2.0), *(np.sin(angle / 2.0) * direction)])

@@ -38,9 +38,9 @@ class Simulation:
         self._subtree_com: Array = self.batch.bind("subtree_com")
         self.batch.reset()
 
-    def step(self, substeps: int) -> None:
-        """Advance every simulation by `substeps` physics steps."""
-        self.batch.step(nstep=substeps)
+    def step(self, substeps: int, ids: Ids | None = None) -> None:
+        """Advance simulations `ids` (all if None) by `substeps` physics steps."""
+        self.batch.step(ids, nstep=substeps)
 
     def forward(self) -> None:
         """Bring everything derived up to date with positions and velocities."""
@@ -52,6 +52,14 @@ class Simulation:
         self.qpos[ids] = qpos
         self.qvel[ids] = qvel
         self.batch.forward(ids)
+
+    def has_body(self, name: str) -> bool:
+        """Tell whether the scene has a body of this name."""
+        return mujoco.mj_name2id(self.model, mujoco.mjtObj.mjOBJ_BODY, name) >= 0
+
+    def has_joint(self, name: str) -> bool:
+        """Tell whether the scene has a joint of this name."""
+        return mujoco.mj_name2id(self.model, mujoco.mjtObj.mjOBJ_JOINT, name) >= 0
 
     def site(self, name: str) -> Site:
         """Resolve a site once, with the joints that move it."""

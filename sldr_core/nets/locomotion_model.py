@@ -14,7 +14,7 @@ from sldr_core.errors import BadFile, InvalidConfig
 from sldr_core.nets.files import load_tensors
 from sldr_core.nets.mlp import Mlp, MlpStack
 from sldr_core.nets.normalizer import Normalizer
-from sldr_core.nets.views import OBJECT_STATE_SIZE, transition_features, view_of
+from sldr_core.nets.views import transition_features, view_of
 
 KIND = "locomotion model"
 """What such a file calls itself."""
@@ -40,8 +40,8 @@ class LocomotionNets(nn.Module):
         self.normalizer = Normalizer(self.view.size)
         self.policy = Mlp((self.view.size, *hidden, task.object_action_size), generator, squash=True)
         self.critic = MlpStack(1, (self.view.size + task.object_action_size, *hidden, 1), generator)
-        self.transition_normalizer = Normalizer(2 * OBJECT_STATE_SIZE)
-        self.inverse = Mlp((2 * OBJECT_STATE_SIZE, *hidden, task.object_action_size), generator)
+        self.transition_normalizer = Normalizer(2 * task.object_state_size)
+        self.inverse = Mlp((2 * task.object_state_size, *hidden, task.object_action_size), generator)
 
     def features(self, state: Tensor, goal: Tensor) -> Tensor:
         """Return normalised features `[..., F]` of object states and goals."""
@@ -83,15 +83,11 @@ class LocomotionModel:
         )
 
 
-def load_locomotion_model(path: Path, task: str | None = None) -> LocomotionModel:
-    """Read a locomotion model.
-
-    Args:
-        path: the file.
-        task: the task it has to fit; any if None.
+def load_locomotion_model(path: Path) -> LocomotionModel:
+    """Read a locomotion model; its config says of which task it is.
 
     Raises:
-        BadFile: it is missing, corrupt, something else, or made for another task.
+        BadFile: it is missing, corrupt or something else.
     """
     content: dict[str, Any] = load_tensors(path, KIND)
     try:
@@ -101,7 +97,5 @@ def load_locomotion_model(path: Path, task: str | None = None) -> LocomotionMode
         measured = Measured(float(content["success_rate"]), int(content["test_episodes"]))
     except (AttributeError, KeyError, TypeError, ValueError, RuntimeError, InvalidConfig) as err:
         raise BadFile(f"{path} is no usable locomotion model ({err}); train it again.") from err
-    if task is not None and config.task != task:
-        raise BadFile(f"{path} is a locomotion model of {config.task}; {task} needs one of its own.")
     nets.requires_grad_(False).eval()
     return LocomotionModel(nets, config, measured)

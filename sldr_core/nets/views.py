@@ -1,7 +1,8 @@
 """What an agent's networks see: features of an observation and a goal, built when they are needed.
 
 Building them from the goal at sample time means that a relabelled goal never leaves a stale feature behind.
-`D` observation, `Z` object state, `G` goal, `F` features. Layouts are those of `sldr_core.envs.fetch`.
+`D` observation, `Z` object state, `G` goal, `F` features. Layouts are those of the
+observers in `sldr_core.envs`; `n` objects.
 """
 
 from __future__ import annotations
@@ -12,13 +13,16 @@ from dataclasses import dataclass
 import torch
 from torch import Tensor
 
-from sldr_core.config import Phase, TaskSpec
+from sldr_core.config import Part, Phase, TaskSpec
 
 Features = Callable[[Tensor, Tensor], Tensor]
 """Return features `[..., F]` of observations `[..., D]` and goals `[..., G]`."""
 
-OBJECT_STATE_SIZE = 12
-"""Position 3, Euler angles 3, linear velocity 3, angular velocity 3."""
+POSITION_SIZE = 3
+"""Entries of a position, of Euler angles, of a velocity."""
+
+HAND_ROBOT_SIZE = 48
+"""Entries of the hand's own joints, before the object's in an observation: 24 positions, 24 velocities."""
 
 
 @dataclass(frozen=True)
@@ -29,30 +33,41 @@ class View:
     features: Features
 
 
-def robot_features(obs: Tensor, goal: Tensor) -> Tensor:
-    """Return the robot's observation with the goal behind it."""
+@dataclass(frozen=True)
+class PartView:
+    """What the locomotion model of a part is given of the robot's observation and goal."""
+
+    object_state: Callable[[Tensor], Tensor]
+    """Return the part's own state `[..., Z]` out of the robot's observation `[..., D]`."""
+    part_goal: Callable[[Tensor], Tensor]
+    """Return the part's own goal out of the robot's goal `[..., G]`."""
+
+
+def joined_features(obs: Tensor, goal: Tensor) -> Tensor:
+    """Return what is seen with the goal behind it."""
     return torch.cat([obs, goal], dim=-1)
 
 
 def object_features(state: Tensor, goal: Tensor) -> Tensor:
-    """Return what the object sees (paper §5).
+    """Return what objects on a table see (paper §5).
 
-    Position, the way to the goal, rotation, velocity relative to the goal, spin, and the goal itself.
+    Positions, the ways to the goals, rotations, velocities relative to the goals, spins, and the goals themselves.
     """
-    position, euler, linear, angular = state.split(3, dim=-1)
+    position, euler, linear, angular = state.chunk(4, dim=-1)
     return torch.cat([position, goal - position, euler, -linear, angular, goal], dim=-1)
 
 
-def object_state(obs: Tensor) -> Tensor:
-    """Return the object's own state `[..., 12]` out of the robot's observation `[..., 25]`."""
-    position, euler, relative, angular, grip = (
-        obs[..., 3:6],
-        obs[..., 11:14],
-        obs[..., 14:17],
-        obs[..., 17:20],
-        obs[..., 20:23],
-    )
-    return torch.cat([position, euler, relative + grip, angular], dim=-1)
+def table_state(obs: Tensor, objects: int, chosen: range) -> Tensor:
+    """Return the states of `chosen` objects `[..., 12 len(chosen)]` out of the Fetch robot's observation of n."""
+    each = 3 * objects
+    _, position, _, _, euler, relative, angular, grip, _ = obs.split((3, each, each, 2, each, each, each, 3, 2), dim=-1)
+    linear = relative + torch.cat([grip] * objects, dim=-1)
+    return torch.cat([_choose(values, chosen) for values in (position, euler, linear, angular)], dim=-1)
+
+
+def hand_state(obs: Tensor) -> Tensor:
+    """Return the object's state `[..., 13]` out of the hand's observation: velocities 6, pose 7."""
+    return obs[..., HAND_ROBOT_SIZE:]
 
 
 def transition_features(state: Tensor, next_state: Tensor) -> Tensor:
@@ -62,6 +77,27 @@ def transition_features(state: Tensor, next_state: Tensor) -> Tensor:
 
 def view_of(task: TaskSpec, phase: Phase) -> View:
     """Return how the one who acts in `phase` sees the task."""
-    if phase == "locomotion":
-        return View(OBJECT_STATE_SIZE + 2 * task.goal_size, object_features)
-    return View(task.obs_size + task.goal_size, robot_features)
+    if phase == "manipulation":
+        return View(task.obs_size + task.goal_size, joined_features)
+    if task.family == "hand":
+        return View(task.object_state_size + task.goal_size, joined_features)
+    return View(task.object_state_size + 2 * task.goal_size, object_features)
+
+
+def part_view(task: TaskSpec, part: Part) -> PartView:
+    """Return what of the robot's observation and goal is the part's: all of it, or one object of a stack."""
+    if task.family == "hand":
+        return PartView(hand_state, _whole)
+    objects = task.goal_size // POSITION_SIZE
+    index = part.object_index
+    chosen = range(index, index + 1) if task.family == "stack" else range(objects)
+    return PartView(lambda obs: table_state(obs, objects, chosen), lambda goal: _choose(goal, chosen))
+
+
+def _choose(values: Tensor, chosen: range) -> Tensor:
+    """Return the entries of `chosen` objects, three for each."""
+    return values[..., POSITION_SIZE * chosen.start : POSITION_SIZE * chosen.stop]
+
+
+def _whole(goal: Tensor) -> Tensor:
+    return goal

@@ -154,18 +154,29 @@ def make_config(
     return config_from_dict(settings)
 
 
-def make_locomotion_config(config: TrainConfig, preset: str) -> TrainConfig:
-    """Return the config of the locomotion run that a manipulation run takes its reward from.
+def locomotion_tasks(config: TrainConfig) -> tuple[str, ...]:
+    """Return the tasks whose locomotion models a training takes its reward from, each once; often none."""
+    return config.task_spec.locomotion_tasks if config.needs_locomotion else ()
+
+
+def make_locomotion_config(config: TrainConfig, preset: str, task: str | None = None) -> TrainConfig:
+    """Return the config of a locomotion run that a manipulation run takes its reward from.
 
     One object serves every seed, so the locomotion run always has seed 0.
+
+    Args:
+        config: the manipulation run.
+        preset: the locomotion run's budget.
+        task: one of `locomotion_tasks(config)`; the first if None.
     """
     compute = {
         "device": config.compute.device,
         "precision": config.compute.precision,
         "threads": config.compute.threads,
     }
-    overrides = {"compute": compute, "scene": {"locomotion_robot": config.scene.locomotion_robot}}
-    return make_config(config.task, "locomotion", LOCOMOTION_METHOD, 0, preset, overrides)
+    scene = {"locomotion_robot": config.scene.locomotion_robot, "variant": config.scene.variant}
+    trained_in = task or config.task_spec.locomotion_tasks[0]
+    return make_config(trained_in, "locomotion", LOCOMOTION_METHOD, 0, preset, {"compute": compute, "scene": scene})
 
 
 def _task_settings(task: TaskSpec, phase: Phase) -> Settings:

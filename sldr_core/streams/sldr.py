@@ -6,18 +6,15 @@ w = I(z, z') what the robot made it do and u = nu(z, g) what it wanted. `B` batc
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
 import torch
 from torch import Tensor
 
-from sldr_core.config import TaskSpec
 from sldr_core.nets.locomotion_model import LocomotionModel
 from sldr_core.nets.transitions import Transitions
+from sldr_core.nets.views import PartView
 from sldr_core.records import Floats
-
-ObjectState = Callable[[Tensor], Tensor]
-"""Return the object's state `[..., Z]` out of robot observations `[..., D]`."""
 
 
 class SldrStream:
@@ -28,24 +25,23 @@ class SldrStream:
         part: str,
         weight: float,
         model: LocomotionModel,
-        task: TaskSpec,
-        object_state: ObjectState,
+        view: PartView,
         device: torch.device,
         autocast: bool,
     ) -> None:
         self.name = f"sldr/{part}"
         self.weight = weight
         self._stored = f"{self.name}/induced_action"
-        self.stored_sizes: Mapping[str, int] = {self._stored: task.object_action_size}
+        self.stored_sizes: Mapping[str, int] = {self._stored: model.config.task_spec.object_action_size}
         self._nets = model.nets.to(device)
-        self._object_state = object_state
+        self._view = view
         self._device = device
         self._autocast = autocast
 
     @torch.no_grad()
     def annotate(self, obs: Floats) -> Mapping[str, Floats]:
         """Return w, once per transition: the inverse model needs no goal, so relabelling cannot change it."""
-        state = self._object_state(torch.from_numpy(obs).to(self._device))
+        state = self._view.object_state(torch.from_numpy(obs).to(self._device))
         induced = self._nets.inferred_action(state[:, :-1], state[:, 1:])
         return {self._stored: induced.cpu().numpy()}
 
@@ -53,7 +49,7 @@ class SldrStream:
     def reward(self, batch: Transitions) -> Tensor:
         """Return q in [-1, 0], `[B]`, under the sampled goal."""
         with torch.autocast(self._device.type, dtype=torch.bfloat16, enabled=self._autocast):
-            features = self._nets.features(self._object_state(batch.obs), batch.goal)
+            features = self._nets.features(self._view.object_state(batch.obs), self._view.part_goal(batch.goal))
             wanted = self._nets.action(features)
             both = torch.cat([batch.extra[self._stored], wanted])
             value_induced, value_wanted = self._nets.value(features.repeat(2, 1), both).float().chunk(2)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -12,9 +12,10 @@ import torch
 from sldr_core.agent import DdpgAgent, InverseLearner
 from sldr_core.config import TrainConfig
 from sldr_core.envs import Envs, make_envs
-from sldr_core.errors import LocomotionMissing
+from sldr_core.errors import BadFile, LocomotionMissing
 from sldr_core.nets.locomotion_model import LocomotionModel, load_locomotion_model
-from sldr_core.nets.views import object_state, view_of
+from sldr_core.nets.views import part_view, view_of
+from sldr_core.presets import locomotion_tasks
 from sldr_core.replay import HindsightSampler, ReplayBuffer
 from sldr_core.streams import SldrStream, Stream, TaskStream
 from sldr_core.training.compute import Compute, resolve_compute
@@ -52,10 +53,10 @@ def build_training(config: TrainConfig, directory: Path, locomotion_models: Sequ
     Args:
         config: what to train.
         directory: the run's directory, for the replay file.
-        locomotion_models: files of the locomotion models that the method takes its reward from.
+        locomotion_models: one file for each task of `locomotion_tasks(config)`, in any order.
 
     Raises:
-        LocomotionMissing: the method needs a locomotion model and none is given.
+        LocomotionMissing: the method needs a locomotion model that is not given.
         BadFile: a locomotion model cannot be used.
         DiskTooFull: the replay file would not fit.
         InvalidConfig: the device does not exist.
@@ -66,7 +67,8 @@ def build_training(config: TrainConfig, directory: Path, locomotion_models: Sequ
     sampling_seed, exploration_seed, weight_seed = np.random.SeedSequence(config.seed).spawn(3)
     weights = torch.Generator().manual_seed(int(weight_seed.generate_state(1)[0]))
     streams = _build_streams(config, compute, models)
-    envs, test_envs = (_build_envs(config, compute, config.seed + offset) for offset in (0, TEST_SEED_OFFSET))
+    envs = _build_envs(config, compute, config.seed, testing=False)
+    test_envs = _build_envs(config, compute, config.seed + TEST_SEED_OFFSET, testing=True)
     agent = DdpgAgent(
         view_of(task, config.phase),
         envs.action_size,
@@ -78,7 +80,7 @@ def build_training(config: TrainConfig, directory: Path, locomotion_models: Sequ
         compute.autocast,
     )
     locomotion = config.phase == "locomotion"
-    inverse = InverseLearner(envs.action_size, config.agent, weights, compute.device, compute.autocast)
+    inverse = InverseLearner(envs.obs_size, envs.action_size, config.agent, weights, compute.device, compute.autocast)
     buffer = ReplayBuffer(
         directory / REPLAY_FILE,
         _episode_shapes(envs, streams),
@@ -102,34 +104,50 @@ def build_training(config: TrainConfig, directory: Path, locomotion_models: Sequ
     )
 
 
-def _load_models(config: TrainConfig, paths: Sequence[Path]) -> list[LocomotionModel]:
-    if not config.needs_locomotion:
-        return []
-    if not paths:
+def _load_models(config: TrainConfig, paths: Sequence[Path]) -> dict[str, LocomotionModel]:
+    """Read the locomotion models that the method needs, by the task each was trained in."""
+    models: dict[str, LocomotionModel] = {}
+    needed = locomotion_tasks(config)
+    for path in paths if needed else ():
+        model = load_locomotion_model(path)
+        task = model.config.task
+        if task not in needed:
+            raise BadFile(f"{path} is a locomotion model of {task}; {config.task} needs {_of_tasks(needed)}.")
+        if task in models:
+            raise BadFile(f"{path} is a second locomotion model of {task}; give one of each task.")
+        models[task] = model
+    missing = [task for task in needed if task not in models]
+    if missing:
         raise LocomotionMissing(
-            f"Method '{config.method}' needs a locomotion model of {config.task}: train one with "
-            f"`sldr train --task {config.task} --phase locomotion --method her`, then give its locomotion.pt."
+            f"Method '{config.method}' needs {_of_tasks(missing)}: train with "
+            f"`sldr train --task {missing[0]} --phase locomotion --method her`, then give its locomotion.pt."
         )
-    return [load_locomotion_model(path, config.task) for path in paths]
+    return models
 
 
-def _build_streams(config: TrainConfig, compute: Compute, models: Sequence[LocomotionModel]) -> tuple[Stream, ...]:
+def _of_tasks(tasks: Sequence[str]) -> str:
+    return "a locomotion model of " + " and one of ".join(tasks)
+
+
+def _build_streams(config: TrainConfig, compute: Compute, models: Mapping[str, LocomotionModel]) -> tuple[Stream, ...]:
+    """Return the task's own stream and, where the method has locomotion models, one for each part of the task."""
+    task = config.task_spec
     auxiliary = [
         SldrStream(
-            f"object{index}",
+            part.name,
             config.sldr.weight,
-            model,
-            config.task_spec,
-            object_state,
+            models[part.locomotion_task],
+            part_view(task, part),
             compute.device,
             compute.autocast,
         )
-        for index, model in enumerate(models)
+        for part in task.parts
+        if part.locomotion_task in models
     ]
     return (TaskStream(), *auxiliary)
 
 
-def _build_envs(config: TrainConfig, compute: Compute, seed: int) -> Envs:
+def _build_envs(config: TrainConfig, compute: Compute, seed: int, testing: bool) -> Envs:
     return make_envs(
         config.task,
         config.phase,
@@ -137,6 +155,8 @@ def _build_envs(config: TrainConfig, compute: Compute, seed: int) -> Envs:
         seed=seed,
         threads=compute.threads,
         robot=config.scene.locomotion_robot,
+        testing=testing,
+        variant=config.scene.variant,
     )
 
 

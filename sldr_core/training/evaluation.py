@@ -49,6 +49,8 @@ def evaluate(path: Path, episodes: int, seed: int) -> EvaluationResult:
         seed=seed,
         threads=resolve_compute(config.compute).threads,
         robot=config.scene.locomotion_robot,
+        testing=True,
+        variant=config.scene.variant,
     )
     result = run_test(envs, policy.act, episodes, check=lambda: None)
     low, high = wilson_interval(result.successes, result.episodes)

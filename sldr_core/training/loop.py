@@ -44,7 +44,7 @@ def train(config: TrainConfig, recorder: Recorder, locomotion_models: Sequence[P
     Args:
         config: what to train.
         recorder: where numbers and files go, and who may ask to stop.
-        locomotion_models: files of the locomotion models that the method takes its reward from.
+        locomotion_models: one file for each task of `locomotion_tasks(config)`, in any order.
 
     Raises:
         SldrError: something that would fail again: a bad file, a missing model, a full disk, diverged numbers.

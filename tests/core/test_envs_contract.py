@@ -8,12 +8,14 @@ import mujoco
 import numpy as np
 import pytest
 
-from sldr_core.config import find_task
+from sldr_core.config import FetchScene, find_task
 from sldr_core.envs import Envs, Observation, make_envs
-from sldr_core.envs.envs import OBJECT_STATE_SIZE
-from sldr_core.envs.scenes.fetch import SUBSTEPS, settle_fetch
+from sldr_core.envs.scenes.fetch import settle_fetch
+from sldr_core.envs.scenes.welds import SUBSTEPS
 
 TASK = find_task("FetchPush")
+SCENE = TASK.scene
+assert isinstance(SCENE, FetchScene)
 ACTORS: list[dict[str, Any]] = [
     {"phase": "manipulation"},
     {"phase": "locomotion", "robot": "absent"},
@@ -49,7 +51,7 @@ def test_shapes_and_types_are_those_of_the_task(actor: dict[str, Any]) -> None:
 
     now = envs.step(actions_of(envs, 1)[0])
 
-    obs_size = TASK.obs_size if moves_robot else OBJECT_STATE_SIZE
+    obs_size = TASK.obs_size if moves_robot else TASK.object_state_size
     assert envs.action_size == (TASK.robot_action_size if moves_robot else TASK.object_action_size)
     assert (envs.obs_size, envs.goal_size, envs.episode_length) == (obs_size, TASK.goal_size, TASK.episode_length)
     assert now.obs.shape == (3, obs_size)
@@ -197,7 +199,7 @@ def test_ids_that_name_no_simulation_are_refused_in_a_sentence(ids: list[int]) -
 @pytest.mark.parametrize("actor", ACTORS[:2], ids=["robot", "object"])
 def test_two_thousand_starts_and_goals_lie_where_the_task_says(actor: dict[str, Any]) -> None:
     envs = make_envs("FetchPush", num_envs=250, threads=2, **actor)
-    settled = settle_fetch(TASK)
+    settled = settle_fetch(SCENE)
     centre, height = settled.gripper_pos, settled.object_height
 
     seen = [envs.reset() for _ in range(8)]
@@ -205,13 +207,13 @@ def test_two_thousand_starts_and_goals_lie_where_the_task_says(actor: dict[str, 
     goals = np.concatenate([now.goal for now in seen])
 
     away = starts[:, :2] - centre[:2]
-    assert np.abs(away).max() <= TASK.object_range
+    assert np.abs(away).max() <= SCENE.object_range
     assert np.hypot(*away.T).min() >= 0.1
     assert np.abs(starts[:, 2] - height).max() < 1e-6
-    assert np.abs(goals[:, :2] - centre[:2]).max() <= TASK.target_range
+    assert np.abs(goals[:, :2] - centre[:2]).max() <= SCENE.target_range
     np.testing.assert_array_equal(goals[:, 2], height)
-    assert np.ptp(starts[:, :2], axis=0).min() > 1.9 * TASK.object_range
-    assert np.ptp(goals[:, :2], axis=0).min() > 1.9 * TASK.target_range
+    assert np.ptp(starts[:, :2], axis=0).min() > 1.9 * SCENE.object_range
+    assert np.ptp(goals[:, :2], axis=0).min() > 1.9 * SCENE.target_range
 
 
 @pytest.mark.parametrize("actor", ACTORS[:2], ids=["robot", "object"])

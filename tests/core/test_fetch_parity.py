@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from sldr_core.config import find_task
+from sldr_core.config import FetchScene, find_task
 from sldr_core.envs import Envs, make_envs
 from sldr_core.envs.scenes.fetch import settle_fetch
 
@@ -106,7 +106,10 @@ def test_pushing_the_block_equals_the_reference(reference: Any, envs: Envs) -> N
 
 
 def test_episodes_start_from_the_settled_scene_of_the_reference(reference: Any) -> None:
-    settled = settle_fetch(find_task("FetchPush"))
+    scene = find_task("FetchPush").scene
+    assert isinstance(scene, FetchScene)
+
+    settled = settle_fetch(scene)
 
     np.testing.assert_array_equal(settled.gripper_pos, reference.initial_gripper_xpos)
     np.testing.assert_array_equal(settled.qpos, reference.initial_qpos)

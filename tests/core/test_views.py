@@ -9,7 +9,7 @@ import torch
 from sldr_core.config import PHASES, Phase, find_task
 from sldr_core.envs import Envs, make_envs
 from sldr_core.envs.fetch import ObjectObserver
-from sldr_core.nets.views import object_features, object_state, robot_features, transition_features, view_of
+from sldr_core.nets.views import joined_features, object_features, part_view, transition_features, view_of
 
 TASK = find_task("FetchPush")
 
@@ -27,9 +27,9 @@ def pushed_object() -> Envs:
 
 def test_the_object_seen_through_the_robot_is_the_object_seen_by_itself() -> None:
     envs = pushed_object()
-    seen = ObjectObserver(envs.simulation).observe()
+    seen = ObjectObserver(envs.simulation, 1).observe()
 
-    through_robot = object_state(torch.from_numpy(envs.observe().obs))
+    through_robot = part_view(TASK, TASK.parts[0]).object_state(torch.from_numpy(envs.observe().obs))
 
     assert np.abs(seen[:, 6:9]).max() > 1e-3, "no object moved: velocities would prove nothing"
     np.testing.assert_allclose(through_robot.numpy(), seen, atol=1e-15)
@@ -75,7 +75,7 @@ def test_a_view_gives_as_many_features_as_it_says(phase: Phase) -> None:
 def test_the_robot_sees_its_observation_and_then_the_goal() -> None:
     obs, goal = torch.arange(25.0)[None], torch.tensor([[-1.0, -2.0, -3.0]])
 
-    assert robot_features(obs, goal).tolist() == [[*range(25), -1, -2, -3]]
+    assert joined_features(obs, goal).tolist() == [[*range(25), -1, -2, -3]]
 
 
 def test_a_transition_is_seen_as_the_state_and_its_change() -> None:

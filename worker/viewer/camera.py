@@ -48,8 +48,23 @@ FETCH_ROBOT = Camera(look_at=(1.2, 0.75, 0.55), distance=2.1, azimuth=138.0, ele
 FETCH_TABLE = Camera(look_at=(1.3, 0.75, 0.42), distance=1.4, azimuth=138.0, elevation=-30.0)
 """The table alone."""
 
+HAND = Camera(look_at=(1.04, 0.93, 0.16), distance=0.62, azimuth=70.0, elevation=-42.0)
+"""The palm with its object, and the target beside it, from above the fingertips."""
+
+
+_CAMERAS: dict[tuple[str, Phase], Camera] = {
+    ("fetch", "manipulation"): FETCH_ROBOT,
+    ("fetch", "locomotion"): FETCH_TABLE,
+    ("stack", "manipulation"): FETCH_ROBOT,
+    ("stack", "locomotion"): FETCH_TABLE,
+    ("tuple", "manipulation"): FETCH_ROBOT,
+    ("tuple", "locomotion"): FETCH_TABLE,
+    ("hand", "manipulation"): HAND,
+    ("hand", "locomotion"): HAND,
+}
+"""The camera of each family and phase."""
+
 
 def find_camera(task: TaskSpec, phase: Phase) -> Camera:
     """Return the camera that frames the workspace of a task."""
-    cameras = {("fetch", "manipulation"): FETCH_ROBOT, ("fetch", "locomotion"): FETCH_TABLE}
-    return cameras[task.family, phase]
+    return _CAMERAS[task.family, phase]

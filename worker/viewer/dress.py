@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 GOAL_SITE = "target0"
-"""The site that marks the goal."""
+"""The site that marks the goal, or the first of several: `target0`, `target1`, ..."""
 
 GOAL_RGBA = (0.86, 0.03, 0.03, 0.72)
 """Translucent red."""
@@ -38,13 +38,18 @@ SHADOW_REACH = 1.5
 MAX_VISIBLE_GROUP = 2
 """MuJoCo's viewers show geom groups 0 to 2 and hide the others."""
 
+_GOAL_PREFIX = "target"
+_PLAIN_RGB = 0.2
+"""The dark grey of the reference's objects: as good as no colour."""
 _DEFAULT_RGBA = (0.5, 0.5, 0.5, 1.0)
 _OBJECT_PREFIX = "object"
 _MOCAP_SUFFIX = ":mocap"
+_ENDS_OF_A_PEN = (":top", ":bottom")
+"""Sites in two colours: without them a pen looks the same both ways round."""
 
 
 def dress(model: mujoco.MjModel) -> mujoco.MjModel:
-    """Return a copy for people to look at: lit, tidied, and every object without a texture in the model's cube map.
+    """Return a copy for people to look at: lit, tidied, and every plain object in the model's cube map.
 
     A plain cube looks the same after a quarter turn; with a letter on each side it is seen to turn.
     """
@@ -60,7 +65,7 @@ def dress(model: mujoco.MjModel) -> mujoco.MjModel:
             continue
         if dressed.geom_type[geom] == mujoco.mjtGeom.mjGEOM_PLANE:
             dressed.mat_rgba[material] = FLOOR_RGBA
-        elif cube_maps.size and _is_object(dressed, geom) and (dressed.mat_texid[material] < 0).all():
+        elif cube_maps.size and _is_object(dressed, geom) and _is_plain(dressed, material):
             dressed.mat_texid[material, mujoco.mjtTextureRole.mjTEXROLE_RGB] = cube_maps[0]
             dressed.mat_rgba[material] = 1.0
     return dressed
@@ -84,6 +89,12 @@ def geom_rgba(model: mujoco.MjModel, geom: int) -> NDArray[np.float32]:
     return own.copy()
 
 
+def goal_sites(model: mujoco.MjModel) -> list[int]:
+    """Return the sites that mark where objects are to go, in the goal's order."""
+    named = {model.site(site).name: site for site in range(model.nsite)}
+    return [named[name] for index in range(model.nsite) if (name := f"{_GOAL_PREFIX}{index}") in named]
+
+
 def _light_room(model: mujoco.MjModel) -> None:
     direction = np.asarray(LAMP_DIRECTION)
     model.light_castshadow[:1] = 1
@@ -103,12 +114,25 @@ def _light_room(model: mujoco.MjModel) -> None:
 
 
 def _leave_only_the_goal_marked(model: mujoco.MjModel) -> None:
+    """Hide every site but the goals and the ends of a pen; where there are several, each keeps the colour of its object."""
+    goals = goal_sites(model)
     for site in range(model.nsite):
-        if model.site(site).name == GOAL_SITE:
-            model.site_rgba[site], model.site_size[site] = GOAL_RGBA, GOAL_RADIUS
+        if site not in goals:
+            if not model.site(site).name.endswith(_ENDS_OF_A_PEN):
+                model.site_rgba[site, 3] = 0.0
+            continue
+        model.site_size[site] = GOAL_RADIUS
+        if len(goals) == 1:
+            model.site_rgba[site] = GOAL_RGBA
         else:
-            model.site_rgba[site, 3] = 0.0
+            model.site_rgba[site, 3] = GOAL_RGBA[3]
 
 
 def _is_object(model: mujoco.MjModel, geom: int) -> bool:
     return model.body(int(model.geom_bodyid[geom])).name.startswith(_OBJECT_PREFIX)
+
+
+def _is_plain(model: mujoco.MjModel, material: int) -> bool:
+    """Tell whether a material has neither a texture nor a colour of its own."""
+    grey = bool((model.mat_rgba[material, :3] == np.float32(_PLAIN_RGB)).all())
+    return grey and bool((model.mat_texid[material] < 0).all())
