@@ -16,7 +16,7 @@ from backend.store.states import Event, RunState, append_event
 from backend.store.tables import AnyRow, run_needs, runs
 from sldr_core.config import PHASES, Phase, TrainConfig, config_hash, config_to_dict
 from sldr_core.errors import InvalidConfig, UnknownName
-from sldr_core.presets import make_config, make_locomotion_config
+from sldr_core.presets import locomotion_tasks, make_config, make_locomotion_config
 
 RUN_ID_LENGTH = 12
 """Hex digits of a run's id."""
@@ -103,13 +103,18 @@ def _plan(conn: Connection, order: LaunchOrder) -> list[PlannedRun]:
     configs = [
         make_config(order.task, order.phase, order.method, seed, order.preset, overrides) for seed in order.seeds
     ]
-    needed = [make_locomotion_config(config, order.preset) for config in configs if config.needs_locomotion]
-    locomotion = {config_hash(config): config for config in needed}
+    needed = [_locomotion_configs(config, order.preset) for config in configs]
+    locomotion = {digest: config for of_one_run in needed for digest, config in of_one_run.items()}
     plan = [_planned(conn, config, order.preset, ()) for config in locomotion.values()]
-    for config in configs:
-        needs = (config_hash(make_locomotion_config(config, order.preset)),) if config.needs_locomotion else ()
-        plan.append(_planned(conn, config, order.preset, needs))
+    for config, of_one_run in zip(configs, needed, strict=True):
+        plan.append(_planned(conn, config, order.preset, tuple(of_one_run)))
     return plan
+
+
+def _locomotion_configs(config: TrainConfig, preset: str) -> dict[str, TrainConfig]:
+    """Return the locomotion runs that a run takes its reward from, by their hash."""
+    configs = [make_locomotion_config(config, preset, task) for task in locomotion_tasks(config)]
+    return {config_hash(config): config for config in configs}
 
 
 def _check(order: LaunchOrder) -> None:

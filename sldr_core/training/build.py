@@ -56,7 +56,7 @@ def build_training(config: TrainConfig, directory: Path, locomotion_models: Sequ
         locomotion_models: one file for each task of `locomotion_tasks(config)`, in any order.
 
     Raises:
-        LocomotionMissing: the method needs a locomotion model that is not given.
+        LocomotionMissing: the method needs a locomotion model that is not given, or is below its gate.
         BadFile: a locomotion model cannot be used.
         DiskTooFull: the replay file would not fit.
         InvalidConfig: the device does not exist.
@@ -115,6 +115,11 @@ def _load_models(config: TrainConfig, paths: Sequence[Path]) -> dict[str, Locomo
             raise BadFile(f"{path} is a locomotion model of {task}; {config.task} needs {_of_tasks(needed)}.")
         if task in models:
             raise BadFile(f"{path} is a second locomotion model of {task}; give one of each task.")
+        if model.measured.success_rate < config.sldr.gate:
+            raise LocomotionMissing(
+                f"{path} reached {model.measured.success_rate:.1%} test success, below the gate of "
+                f"{config.sldr.gate:.1%}; train its object longer, or lower sldr.gate."
+            )
         models[task] = model
     missing = [task for task in needed if task not in models]
     if missing:

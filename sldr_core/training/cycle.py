@@ -78,7 +78,8 @@ def _on_device(sample: Sample, device: torch.device) -> Transitions:
 
 
 def _finite(metrics: Mapping[str, float]) -> dict[str, float]:
-    for name, value in metrics.items():
+    # Rewards first: a loss only carries on what was wrong with them.
+    for name, value in sorted(metrics.items(), key=lambda item: not item[0].startswith("stream/")):
         if not math.isfinite(value):
             raise TrainingDiverged(
                 f"{name} became {value}: training was stopped; lower agent.learning_rate or check the task's numbers."

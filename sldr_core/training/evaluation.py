@@ -10,6 +10,9 @@ from sldr_core.training.compute import resolve_compute
 from sldr_core.training.policy import load_policy
 from sldr_core.training.testing import run_test, wilson_interval
 
+EVALUATION_SEED_OFFSET = 2**32
+"""Evaluations draw from generators that no training and no test of a training uses."""
+
 MAX_SIMULATIONS = 38
 """Episodes run side by side."""
 
@@ -46,7 +49,7 @@ def evaluate(path: Path, episodes: int, seed: int) -> EvaluationResult:
         config.task,
         config.phase,
         num_envs=min(episodes, MAX_SIMULATIONS),
-        seed=seed,
+        seed=seed + EVALUATION_SEED_OFFSET,
         threads=resolve_compute(config.compute).threads,
         robot=config.scene.locomotion_robot,
         testing=True,

@@ -33,7 +33,9 @@ TINY = {
 }
 """Laid over the smoke preset: four cycles in a fraction of a second; the replay wraps around after nine."""
 
-SHORT_PUSH = replace(FETCH_PUSH, name="ShortPush", episode_length=8)
+SHORT_PUSH = replace(
+    FETCH_PUSH, name="ShortPush", episode_length=8, parts=(replace(FETCH_PUSH.parts[0], locomotion_task="ShortPush"),)
+)
 """FetchPush with episodes that are over soon; `conftest.py` makes it known."""
 
 

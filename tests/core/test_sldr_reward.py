@@ -13,11 +13,13 @@ from small_training import collected_parts, save_untrained_model, tiny_config
 from sldr_core.config import find_task
 from sldr_core.nets.locomotion_model import LocomotionModel, LocomotionNets, Measured
 from sldr_core.nets.transitions import Transitions
-from sldr_core.nets.views import object_state
+from sldr_core.nets.views import part_view
 from sldr_core.streams import SldrStream
 
 BATCH = 200
 STORED = "sldr/object0/induced_action"
+TASK = find_task("FetchPush")
+OBJECT = part_view(TASK, TASK.parts[0])
 CPU = torch.device("cpu")
 
 
@@ -35,7 +37,7 @@ def nets() -> LocomotionNets:
 @pytest.fixture
 def stream(nets: LocomotionNets) -> SldrStream:
     model = LocomotionModel(nets, tiny_config(), Measured(1.0, 1))
-    return SldrStream("object0", 1.0, model, find_task("FetchPush"), object_state, CPU, autocast=False)
+    return SldrStream("object0", 1.0, model, OBJECT, CPU, autocast=False)
 
 
 @pytest.fixture
@@ -128,7 +130,7 @@ def test_induced_actions_are_computed_for_every_step_of_every_episode(stream: Sl
 def test_an_object_that_does_what_it_wants_earns_the_most(
     stream: SldrStream, nets: LocomotionNets, transitions: Transitions
 ) -> None:
-    wanted = nets.action(nets.features(object_state(transitions.obs), transitions.goal))
+    wanted = nets.action(nets.features(OBJECT.object_state(transitions.obs), transitions.goal))
     transitions.extra[STORED][:] = wanted  # pyright: ignore[reportIndexIssue]
 
     assert stream.reward(transitions).abs().max() < 1e-4
