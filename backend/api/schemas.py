@@ -42,7 +42,8 @@ class Task(Strict):
     robot_action_size: int
     object_action_size: int
     episode_length: int
-    success_distance: float
+    success_distance: float | None
+    success_angle: float | None
     picture_url: str
 
 

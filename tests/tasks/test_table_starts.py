@@ -67,7 +67,7 @@ def deepest_contact(envs: Envs) -> float:
 def test_objects_start_on_the_table_near_the_gripper_and_not_under_it(task: str, count: int) -> None:
     spec = find_task(task)
     starts, _, settled = drawn(spec, count)
-    scene = spec.scene
+    scene: Any = spec.scene
     shift = scene.start_shift if isinstance(scene, TupleScene) else 0.0
     free = starts[:, :1] if isinstance(scene, TupleScene) else starts
 

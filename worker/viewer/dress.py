@@ -114,7 +114,7 @@ def _light_room(model: mujoco.MjModel) -> None:
 
 
 def _leave_only_the_goal_marked(model: mujoco.MjModel) -> None:
-    """Hide every site but the goals and the ends of a pen; where there are several, each keeps the colour of its object."""
+    """Hide every site but the goals and the ends of a pen; each of several goals keeps the colour of its object."""
     goals = goal_sites(model)
     for site in range(model.nsite):
         if site not in goals:

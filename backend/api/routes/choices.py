@@ -63,5 +63,6 @@ def _task(spec: TaskSpec) -> Task:
         object_action_size=spec.object_action_size,
         episode_length=spec.episode_length,
         success_distance=spec.success_distance,
+        success_angle=spec.success_angle,
         picture_url=f"/api/tasks/{spec.name}/picture",
     )

@@ -790,8 +790,10 @@ export interface components {
             picture_url: string;
             /** Robot Action Size */
             robot_action_size: number;
+            /** Success Angle */
+            success_angle: number | null;
             /** Success Distance */
-            success_distance: number;
+            success_distance: number | null;
         };
         /**
          * ViewerRequest

@@ -46,6 +46,7 @@ export const CHOICES: Choices = {
       object_action_size: 7,
       episode_length: 50,
       success_distance: 0.05,
+      success_angle: null,
       picture_url: '/api/tasks/FetchPush/picture',
     },
   ],
