@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, cast
 
 import mujoco
 import numpy as np
@@ -14,8 +14,7 @@ from sldr_core.envs.scenes.fetch import settle_fetch
 from sldr_core.envs.scenes.welds import SUBSTEPS
 
 TASK = find_task("FetchPush")
-SCENE = TASK.scene
-assert isinstance(SCENE, FetchScene)
+SCENE = cast(FetchScene, TASK.scene)
 ACTORS: list[dict[str, Any]] = [
     {"phase": "manipulation"},
     {"phase": "locomotion", "robot": "absent"},

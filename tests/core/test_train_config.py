@@ -48,6 +48,7 @@ def changed(path: tuple[str, ...], value: Any) -> dict[str, Any]:
 OTHER_WORDS = {
     "phase": ("locomotion", {"method": "her"}),
     "method": ("her", {}),
+    "variant": ("original", {}),
     "locomotion_robot": ("still", {}),
     "device": ("cpu", {}),
     "precision": ("bfloat16", {}),

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 import torch
-from small_training import run, save_untrained_model, tiny_config
+from small_training import TINY, run, save_untrained_model, tiny_config
 
 from sldr_core.errors import BadFile, DiskTooFull, InvalidConfig, LocomotionMissing, TrainingDiverged
 from sldr_core.nets.transitions import Transitions
@@ -69,7 +69,7 @@ def test_a_checkpoint_without_its_replay_file_is_refused_again_and_again(trained
 def test_a_method_that_needs_a_locomotion_model_says_how_to_get_one(tmp_path: Path) -> None:
     config = make_config("FetchPush", "manipulation", "her-sldr", 0, "smoke")
 
-    with pytest.raises(LocomotionMissing, match="needs a locomotion model of FetchPush: train one with `sldr train"):
+    with pytest.raises(LocomotionMissing, match="needs a locomotion model of FetchPush: train with `sldr train"):
         run(config, tmp_path)
 
 
@@ -83,8 +83,17 @@ def test_a_locomotion_model_that_is_not_there_is_named(tmp_path: Path) -> None:
 def test_a_locomotion_model_of_another_task_is_refused(tmp_path: Path) -> None:
     model = save_untrained_model(tmp_path / "model.pt", task="FetchPush")
 
-    with pytest.raises(BadFile, match="is a locomotion model of FetchPush; ShortPush needs one of its own"):
+    named = "is a locomotion model of FetchPush; ShortPush needs a locomotion model of ShortPush"
+    with pytest.raises(BadFile, match=named):
         run(tiny_config("manipulation", "her-sldr"), tmp_path, (model,))
+
+
+def test_a_locomotion_model_below_the_gate_is_refused(tmp_path: Path) -> None:
+    model = save_untrained_model(tmp_path / "model.pt")
+    config = make_config("ShortPush", "manipulation", "her-sldr", 0, "smoke", {**TINY, "sldr": {"gate": 0.98}})
+
+    with pytest.raises(LocomotionMissing, match=r"reached 97.0% test success, below the gate of 98.0%; train"):
+        run(config, tmp_path, (model,))
 
 
 def test_a_policy_is_no_locomotion_model(trained: Path, tmp_path: Path) -> None:
@@ -100,7 +109,7 @@ def test_a_reward_that_is_no_number_ends_the_training_by_the_name_of_its_metric(
 
     monkeypatch.setattr(TaskStream, "reward", poisoned)
 
-    with pytest.raises(TrainingDiverged, match="critic/task/loss became nan: training was stopped; lower agent"):
+    with pytest.raises(TrainingDiverged, match="stream/task/mean became nan: training was stopped; lower agent"):
         run(tiny_config(), tmp_path)
     assert not (tmp_path / "checkpoint.pt").exists()
 
