@@ -7,6 +7,7 @@ import type { LaunchSearch } from '../search';
 import type { Chosen } from '../use-launch-form';
 import classes from './launch.module.css';
 import { TaskPicture } from './task-picture';
+import { TaskSummary } from './task-summary';
 
 const PHASES = {
   manipulation: 'The robot learns to move the object. Methods with SLDR bring the locomotion run they need.',
@@ -34,7 +35,7 @@ export function LaunchChoices({ choices, chosen, problems, onChoose }: Props) {
         cards={choices.tasks.map((task) => ({
           value: task.name,
           title: task.name,
-          summary: task.goal_text,
+          summary: <TaskSummary task={task} />,
           picture: <TaskPicture url={task.picture_url} />,
         }))}
       />
