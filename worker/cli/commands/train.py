@@ -18,7 +18,7 @@ from rich.console import Console
 
 from sldr_core.config import LOCOMOTION_METHOD, Phase, TrainConfig, find_task
 from sldr_core.errors import BadFile, LocomotionMissing
-from sldr_core.presets import make_config
+from sldr_core.presets import locomotion_tasks, make_config
 from worker.cli.settings import parse_settings
 
 INTERRUPTED = 130
@@ -42,7 +42,7 @@ class Arguments:
     out: Annotated[Path | None, tyro.conf.arg(metavar="DIR", help_behavior_hint="")] = None
     """Directory for checkpoints, policies and metrics (default: one below runs/, named after the training)."""
     locomotion_model: Annotated[tyro.conf.UseAppendAction[tuple[Path, ...]], tyro.conf.arg(metavar="FILE")] = ()
-    """The locomotion.pt of a locomotion training, where the method takes its reward from one."""
+    """The locomotion.pt of a locomotion training, where the method takes its reward from one; repeat it for several."""
     settings: Annotated[
         tyro.conf.UseAppendAction[tuple[str, ...]], tyro.conf.arg(name="set", metavar="GROUP.NAME=VALUE")
     ] = ()
@@ -108,8 +108,9 @@ def _check_locomotion(config: TrainConfig, models: Sequence[Path]) -> None:
     """Find out before the slow imports."""
     if config.needs_locomotion and not models:
         raise LocomotionMissing(
-            f"Method {config.method} takes its reward from a locomotion model: train one with "
-            f"'sldr train --task {config.task} --phase locomotion --out DIR', "
+            f"Method {config.method} takes its reward from a locomotion model of "
+            f"{' and one of '.join(locomotion_tasks(config))}: train it with "
+            f"'sldr train --task {locomotion_tasks(config)[0]} --phase locomotion --out DIR', "
             "then pass --locomotion-model DIR/locomotion.pt."
         )
     for model in models:
