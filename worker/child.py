@@ -6,12 +6,10 @@ What is printed goes to the run's log.
 
 from __future__ import annotations
 
-import ctypes
 import faulthandler
 import fcntl
 import logging
 import os
-import signal
 import sys
 import threading
 import time
@@ -29,11 +27,10 @@ from sldr_core.config import TrainConfig
 from sldr_core.errors import SldrError
 from sldr_core.records import Step
 from worker.locomotion_files import find_locomotion_models
+from worker.mortality import end_with_parent
 from worker.recorder import Curves, StoreRecorder, WriteCurves
 from worker.words import STOP_WORDS, StopWord
 
-PR_SET_PDEATHSIG = 1
-"""Number of the Linux call that asks for a signal when the parent dies (prctl(2))."""
 LOCK_FILE = ".lock"
 LOCK_PATIENCE_S = 10.0
 """How long an earlier attempt's process may take to let go of the run's directory [s]."""
@@ -79,7 +76,7 @@ def main() -> int:
 
 def run_child(train: Train, write_curves: WriteCurves | None = None) -> int:
     """Read a claim, train, and report how it ended; return the exit status."""
-    _end_with_parent()
+    end_with_parent()
     faulthandler.enable()
     logging.basicConfig(level=logging.INFO, format="%(asctime)s %(message)s", stream=sys.stdout)
     claim = claim_from_json(sys.stdin.readline())
@@ -184,12 +181,6 @@ def _hold_directory(directory: Path) -> Generator[None]:
         for leftover in directory.glob(".*.tmp"):
             leftover.unlink()
         yield
-
-
-def _end_with_parent() -> None:
-    """Let the system kill this process when the supervisor dies; the end of standard input is the second way."""
-    if sys.platform == "linux":
-        ctypes.CDLL(None, use_errno=True).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
 
 
 def _train(config: TrainConfig, recorder: StoreRecorder, locomotion_models: Sequence[Path]) -> TrainResult:

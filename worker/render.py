@@ -18,6 +18,7 @@ from pathlib import Path
 
 from sldr_core.config import TASKS, find_task
 from sldr_core.errors import SldrError
+from worker.mortality import end_with_parent
 
 PICTURE_SIZE = (800, 500)
 """Width and height of a task's picture [pixels]."""
@@ -81,6 +82,7 @@ def main() -> int:
     parser.add_argument("--height", type=int, default=PICTURE_SIZE[1])
     parser.add_argument("--all-below", type=Path, metavar="HOME", help="draw every missing picture below HOME/pictures")
     options = parser.parse_args()
+    end_with_parent()
     try:
         if options.all_below is not None:
             render_all_pictures(options.all_below)

@@ -24,6 +24,7 @@ from backend.store import viewer_sessions
 from backend.store.database import Database, open_database
 from backend.store.launches import LaunchOrder, launch
 from backend.store.settings import Settings, sqlite_url
+from sldr_core.config import TASKS
 from worker.viewer.host import Host, Limits
 from worker.viewer.process import serve_session
 
@@ -197,7 +198,8 @@ def test_a_closed_session_s_process_ends(make_host, database, run_id):
 def test_no_session_outlives_its_host(database, settings, run_id, how):
     asked = viewer_sessions.request_session(database, run_id)
     (settings.home / "pictures").mkdir()
-    (settings.home / "pictures" / "FetchPush.png").touch()  # nothing to draw
+    for task in TASKS:
+        (settings.home / "pictures" / f"{task}.png").touch()  # nothing to draw
     environment = {**os.environ, **settings.as_environment()}
     host = subprocess.Popen([sys.executable, "-m", "worker.viewer"], env=environment)
     try:

@@ -10,6 +10,8 @@ import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
 
+from worker.mortality import PR_SET_PDEATHSIG
+
 FIRST_PAUSE_S = 0.5
 """Pause before a child that died is started again; doubled each time it dies young [s]."""
 
@@ -18,8 +20,6 @@ LONGEST_PAUSE_S = 30.0
 
 GROWN_UP_S = 30.0
 """A child that lived this long did not die young [s]."""
-
-PR_SET_PDEATHSIG = 1
 
 
 class Child:

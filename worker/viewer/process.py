@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 import logging
 import os
 import signal
@@ -10,12 +9,11 @@ import sys
 from multiprocessing.connection import Connection
 
 from sldr_core.errors import SldrError
+from worker.mortality import end_with_parent
 from worker.viewer.reports import Broken, Job
 
 NICENESS = 5
 """Watching gives way to training."""
-
-PR_SET_PDEATHSIG = 1
 
 log = logging.getLogger("sldr.viewer")
 
@@ -42,7 +40,6 @@ def _end_with_host(host_pid: int) -> None:
     """Make this process gentle, deaf to Ctrl-C (the host ends it in order), and mortal with its host."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     os.nice(NICENESS)
-    if sys.platform == "linux":
-        ctypes.CDLL(None, use_errno=True).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+    end_with_parent()
     if os.getppid() != host_pid:
         raise SystemExit(1)
