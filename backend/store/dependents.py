@@ -15,7 +15,8 @@ def settle_dependents(conn: Connection, run_id: str, at: datetime) -> None:
     """Release every blocked run that waited only for this one, and tell the others why they wait on."""
     needs_this = select(run_needs.c.run_id).where(run_needs.c.needs_run_id == run_id)
     query = select(runs).where(runs.c.id.in_(needs_this), runs.c.state == RunState.BLOCKED).order_by(runs.c.number)
-    for dependent in conn.execute(query).all():
+    # Locked: when two runs that one dependent needs end at once, the second to look sees the end of both.
+    for dependent in conn.execute(query.with_for_update()).all():
         _settle(conn, dependent, at)
 
 

@@ -2,7 +2,10 @@
 
 SldrError
 ├── NotFound             there is no such run, file or session
-└── WrongState           a run cannot do this in the state it is in
+├── WrongState           a run cannot do this in the state it is in
+├── BadAddress           the address of the store or of the files cannot work
+├── StoreTooNew          a later version of this program has used the store
+└── Unstorable           a value that no column can hold, such as text with a zero byte
 Exception
 ├── StaleFence           an attempt that was replaced tried to write
 └── StoreUnavailable     the database cannot be reached, is locked or full; the same call may work later
@@ -33,6 +36,18 @@ class WrongState(SldrError):
         self.run_id = run_id
         self.state = state
         self.event = event
+
+
+class BadAddress(SldrError):
+    """Report an address of the store or of the files that can never work as it is written."""
+
+
+class StoreTooNew(SldrError):
+    """Report tables that a later version of this program has made."""
+
+
+class Unstorable(SldrError):
+    """Report a value that the database can neither hold nor compare with what it holds."""
 
 
 class StaleFence(Exception):

@@ -10,7 +10,7 @@ from typing import Any
 
 from sqlalchemy import Connection, insert, select
 
-from backend.store.database import Database, current_time
+from backend.store.database import LAUNCH_TURN, Database, current_time, take_turn
 from backend.store.dependents import why_blocked
 from backend.store.states import Event, RunState, append_event
 from backend.store.tables import AnyRow, run_needs, runs
@@ -90,6 +90,8 @@ def launch(db: Database, order: LaunchOrder) -> list[str]:
     """
     ids: dict[str, str] = {}
     with db.write() as conn:
+        # Two launches at once must not both find that a locomotion run has to be made.
+        take_turn(conn, LAUNCH_TURN)
         at = current_time(conn)
         for planned in _plan(conn, order):
             needed = [ids[needed_hash] for needed_hash in planned.needs]
@@ -152,7 +154,8 @@ def _find_shared(conn: Connection, digest: str) -> str | None:
 
 def _insert_run(conn: Connection, planned: PlannedRun, needed_ids: list[str], at: datetime) -> str:
     # Locked, so that a locomotion run cannot end unseen between this look and the insert.
-    needed: Sequence[AnyRow] = conn.execute(select(runs).where(runs.c.id.in_(needed_ids)).with_for_update()).all()
+    query = select(runs).where(runs.c.id.in_(needed_ids)).order_by(runs.c.number).with_for_update()
+    needed: Sequence[AnyRow] = conn.execute(query).all()
     reason = why_blocked(needed, planned.config.sldr.gate)
     state = RunState.QUEUED if reason is None else RunState.BLOCKED
     run_id = uuid.uuid4().hex[:RUN_ID_LENGTH]
