@@ -25,7 +25,6 @@ SETTINGS = {
     "listen_addresses": "127.0.0.1",
     "fsync": "off",  # what a test writes need not outlive the machine
     "full_page_writes": "off",
-    "synchronous_commit": "off",
     "autovacuum": "off",
     "shared_buffers": "32MB",
     "max_connections": "200",
@@ -81,10 +80,10 @@ class PostgresServer:
                 assert time.monotonic() < give_up_at, self._log()
                 time.sleep(0.02)
 
-    def stop(self) -> None:
-        """End the server as its service would: at once, whoever is connected."""
+    def stop(self, by: signal.Signals = signal.SIGINT) -> None:
+        """End the server, whoever is connected: in good order, or with SIGQUIT as if it crashed."""
         assert self._process is not None
-        self._process.send_signal(signal.SIGINT)
+        self._process.send_signal(by)
         self._process.wait(PATIENCE_S)
 
     def create_database(self, template: str = "template0") -> str:

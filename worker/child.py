@@ -28,6 +28,7 @@ from sldr_core.errors import SldrError
 from sldr_core.records import Step
 from worker.locomotion_files import find_locomotion_models
 from worker.mortality import end_with_parent
+from worker.patience import when_possible
 from worker.recorder import Curves, StoreRecorder, WriteCurves
 from worker.words import STOP_WORDS, StopWord
 
@@ -82,11 +83,11 @@ def run_child(train: Train, write_curves: WriteCurves | None = None) -> int:
     claim = claim_from_json(sys.stdin.readline())
     requests = StopRequests(sys.stdin)
     settings = load_settings()
-    db = open_database(settings)
+    db = when_possible(lambda: open_database(settings))
     log.info("Attempt %d of run %s begins in process %d.", claim.attempt, claim.run_id, os.getpid())
     try:
         outcome = _attempt(db, settings, claim, requests, train, write_curves)
-        finish(db, claim, outcome)
+        when_possible(lambda: finish(db, claim, outcome))
     except StaleFence as err:
         log.error("%s", err)
         return EXIT_STALE
@@ -127,7 +128,7 @@ def _attempt(
     """Train, and turn whatever happens into an outcome; only a stale fence leaves as an error."""
     try:
         with _hold_directory(settings.run_directory(claim.run_id)):
-            models = find_locomotion_models(db, settings, claim)
+            models = when_possible(lambda: find_locomotion_models(db, settings, claim))
             with StoreRecorder(db, settings, claim, requests.newest, write_curves) as recorder:
                 result = train(claim.config, recorder, models)
     except DirectoryBusy as err:

@@ -4,18 +4,16 @@ from __future__ import annotations
 
 import logging
 import threading
-import time
 
 from backend.store.claims import Claim
 from backend.store.database import Database
 from backend.store.errors import StoreUnavailable
 from backend.store.metrics import MetricPoint, append_metrics
 from backend.store.progress import Progress, report_progress
+from worker.patience import when_possible
 
 FLUSH_S = 0.5
 """Between two batches [s]."""
-CLOSE_PATIENCE_S = 60.0
-"""How long the last batch waits for a store that cannot be used [s]."""
 
 log = logging.getLogger(__name__)
 
@@ -56,19 +54,12 @@ class MetricWriter:
 
         Raises:
             StaleFence: the run was given to another worker.
-            StoreUnavailable: the store could not be used for a minute.
+            StoreUnavailable: the store could not be used for minutes.
         """
         self._closing.set()
         self._thread.join()
         self.check()
-        give_up_at = time.monotonic() + CLOSE_PATIENCE_S
-        while True:
-            try:
-                return self._flush()
-            except StoreUnavailable:
-                if time.monotonic() > give_up_at:
-                    raise
-                time.sleep(self._interval_s)
+        when_possible(self._flush)
 
     def _run(self) -> None:
         try:

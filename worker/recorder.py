@@ -20,6 +20,7 @@ from backend.store.settings import Settings
 from sldr_core.errors import TrainingDiverged
 from sldr_core.records import Step
 from worker.metric_writer import MetricWriter
+from worker.patience import when_possible
 from worker.words import StopWord
 
 Curves = Mapping[str, Sequence[float | None]]
@@ -58,7 +59,7 @@ class StoreRecorder:
         self._stop_requested = stop_requested
         self._write_curves = write_curves
         self._curves_saved_at = time.monotonic()
-        self._known = find_progress(db, claim.run_id)
+        self._known = when_possible(lambda: find_progress(db, claim.run_id))
         self._writer = MetricWriter(db, claim)
 
     def __enter__(self) -> StoreRecorder:
@@ -102,7 +103,8 @@ class StoreRecorder:
         self._writer.check()
         path = write_atomically(self._directory / name, write)
         size, digest = path.stat().st_size, checksum(path)
-        register_file(self._db, self._claim, name, kind, str(path.relative_to(self._home)), size, digest)
+        relative = str(path.relative_to(self._home))
+        when_possible(lambda: register_file(self._db, self._claim, name, kind, relative, size, digest))
         return path
 
     def stop_requested(self) -> StopWord | None:
@@ -137,7 +139,7 @@ class StoreRecorder:
         if write_curves is None:
             return
         self._curves_saved_at = time.monotonic()
-        steps, values = read_curves(self._db, self._claim.run_id)
+        steps, values = when_possible(lambda: read_curves(self._db, self._claim.run_id))
         if not steps:
             return
         title = f"{config.task} {config.method} {config.phase}, seed {config.seed}"

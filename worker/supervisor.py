@@ -35,7 +35,11 @@ from backend.store.workers import register_worker, retire
 from sldr_core.errors import InvalidConfig
 from worker.executors.local import LocalChild, LocalExecutor
 from worker.heart import Heart
+from worker.patience import when_possible
 from worker.words import StopWord
+
+BEATS_BEFORE_REAPING = 2.0
+"""Heartbeats for which nobody is taken for dead after the store could not be used."""
 
 log = logging.getLogger(__name__)
 
@@ -84,6 +88,7 @@ class Supervisor:
         self._attempts: dict[str, _Attempt] = {}
         self._stops_asked = 0
         self._reap_at = 0.0
+        self._is_cut_off = False
 
     def ask_to_stop(self) -> None:
         """Let every child checkpoint, hand all runs back, then end `run`. Asked again: without checkpoints.
@@ -94,7 +99,7 @@ class Supervisor:
 
     def run(self) -> None:
         """Work until asked to stop. Call it from the main thread."""
-        worker_id = register_worker(self._db, socket.gethostname(), os.getpid(), self._slots)
+        worker_id = when_possible(lambda: register_worker(self._db, socket.gethostname(), os.getpid(), self._slots))
         timing = self._timing
         heart = Heart(self._db, worker_id, self._held, self._lose, timing.heartbeat_s, timing.lease_s)
         heart.start()
@@ -104,7 +109,7 @@ class Supervisor:
                 heart.check()
                 self._take_turn(worker_id)
                 time.sleep(timing.poll_s)
-            retire(self._db, worker_id)
+            self._retire(worker_id)
         finally:
             heart.stop()
             for attempt in self._attempts.values():
@@ -112,15 +117,20 @@ class Supervisor:
                 attempt.child.wait()
 
     def _take_turn(self, worker_id: str) -> None:
+        self._kill_overdue()
         try:
             self._report_ended()
             self._pass_on_requests()
-            self._kill_overdue()
             self._reap()
             if not self._stops_asked:
                 self._fill_slots(worker_id)
+            self._is_cut_off = False
         except StoreUnavailable as err:
-            log.warning("Trying again: %s", err)
+            if not self._is_cut_off:
+                log.warning("Trying again and again: %s", err)
+                self._is_cut_off = True
+            # Whoever could not be heard while the store was away gets time to be heard before being taken for dead.
+            self._reap_at = time.monotonic() + BEATS_BEFORE_REAPING * self._timing.heartbeat_s
 
     def _held(self) -> list[Claim]:
         return [attempt.claim for attempt in list(self._attempts.values())]
@@ -163,15 +173,34 @@ class Supervisor:
             finish(self._db, claimed, outcome, self._timing.retry_backoff_s)
         except StaleFence:
             log.debug("Run %s: its child has reported already, or it was taken away.", claimed.run_id)
+        except StoreUnavailable as err:
+            if self._stops_asked < 2:
+                raise
+            log.warning("Run %s: its end could not be told, so its lease will run out: %s", claimed.run_id, err)
+
+    def _retire(self, worker_id: str) -> None:
+        try:
+            retire(self._db, worker_id)
+        except StoreUnavailable as err:
+            log.warning("The store was not told that this worker ends: %s", err)
 
     def _pass_on_requests(self) -> None:
         for attempt in self._attempts.values():
-            word = self._wanted_of(read_requests(self._db, attempt.claim))
+            word = self._wanted_of(self._read_requests(attempt.claim))
             if word is not None and attempt.asked not in (word, "cancel"):
                 attempt.child.tell(word)
                 attempt.asked = word
                 grace = self._timing.cancel_grace_s if word == "cancel" else self._timing.stop_grace_s
                 attempt.kill_at = min(attempt.kill_at, time.monotonic() + grace)
+
+    def _read_requests(self, claimed: Claim) -> HeartbeatReply:
+        """Ask what people want of an attempt; a store that cannot answer must not keep a worker from ending."""
+        try:
+            return read_requests(self._db, claimed)
+        except StoreUnavailable:
+            if not self._stops_asked:
+                raise
+            return HeartbeatReply(alive=True, cancel=False, pause=False)
 
     def _wanted_of(self, reply: HeartbeatReply) -> StopWord | None:
         if reply.cancel:

@@ -52,7 +52,7 @@ class MetricColumns:
 
 
 def append_metrics(db: Database, claim: Claim, points: Sequence[MetricPoint]) -> None:
-    """Store points in one transaction.
+    """Store points in one transaction; what is stored already, of an earlier call whose answer was lost, stays so.
 
     Raises:
         StaleFence: the attempt is over; nothing was stored.
@@ -61,7 +61,7 @@ def append_metrics(db: Database, claim: Claim, points: Sequence[MetricPoint]) ->
         _check_finite(point)
     with db.write() as conn:
         hold_fence(conn, claim)
-        for point in points:
+        for point in _without_stored(conn, claim, points):
             _insert_point(conn, claim, point)
 
 
@@ -97,6 +97,29 @@ def _check_finite(point: MetricPoint) -> None:
     for name, value in point.values.items():
         if not math.isfinite(value):
             raise ValueError(f"metric {name} is {value} at cycle {point.step.cycle}; only finite numbers are stored")
+
+
+def _without_stored(conn: Connection, claim: Claim, points: Sequence[MetricPoint]) -> list[MetricPoint]:
+    """Return what this attempt has not stored yet of its points."""
+    if not points:
+        return []
+    cycles = [point.step.cycle for point in points]
+    this = (metric_steps.c.run_id == claim.run_id, metric_steps.c.attempt == claim.attempt)
+    query = (
+        select(metric_steps.c.step, metric_values.c.name)
+        .outerjoin(metric_values, metric_values.c.step_id == metric_steps.c.id)
+        .where(*this, metric_steps.c.step.between(min(cycles), max(cycles)))
+    )
+    stored: dict[int, set[str | None]] = {}
+    for row in conn.execute(query):
+        stored.setdefault(row.step, set()).add(row.name)
+    missing: list[MetricPoint] = []
+    for point in points:
+        there = stored.get(point.step.cycle)
+        values = {name: value for name, value in point.values.items() if name not in (there or ())}
+        if there is None or values:
+            missing.append(MetricPoint(point.step, values))
+    return missing
 
 
 def _insert_point(conn: Connection, claim: Claim, point: MetricPoint) -> None:

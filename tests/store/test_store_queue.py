@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 import time
@@ -57,7 +58,7 @@ def test_four_processes_claim_each_of_200_runs_once(db: Database, settings: Sett
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             text=True,
-            env=settings.as_environment(),
+            env={**os.environ, **settings.as_environment()},
         )
         for number in range(4)
     ]
