@@ -84,8 +84,8 @@ def run_child(train: Train, write_curves: WriteCurves | None = None) -> int:
     requests = StopRequests(sys.stdin)
     settings = load_settings()
     db = when_possible(lambda: open_database(settings))
-    log.info("Attempt %d of run %s begins in process %d.", claim.attempt, claim.run_id, os.getpid())
     try:
+        storage = FileStorage(settings)
         outcome = _attempt(db, settings, claim, requests, train, write_curves)
         when_possible(lambda: finish(db, claim, outcome))
     except StaleFence as err:

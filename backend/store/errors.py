@@ -2,6 +2,7 @@
 
 SldrError
 ├── NotFound             there is no such run, file or session
+├── FileGone             a file that the store knows is not where it should be
 ├── WrongState           a run cannot do this in the state it is in
 ├── BadAddress           the address of the store or of the files cannot work
 ├── StoreTooNew          a later version of this program has used the store
@@ -9,6 +10,7 @@ SldrError
 Exception
 ├── StaleFence           an attempt that was replaced tried to write
 └── StoreUnavailable     the database cannot be reached, is locked or full; the same call may work later
+    └── FilesUnavailable the same of the place that machines share files through
 """
 
 from __future__ import annotations
@@ -25,6 +27,10 @@ class NotFound(SldrError):
         super().__init__(f"There is no {kind} '{name}'.")
         self.kind = kind
         self.name = name
+
+
+class FileGone(SldrError):
+    """Report a stored file whose bytes are not where its row says."""
 
 
 class WrongState(SldrError):
@@ -61,3 +67,7 @@ class StaleFence(Exception):
 
 class StoreUnavailable(Exception):
     """Report that the database could not be read or written just now."""
+
+
+class FilesUnavailable(StoreUnavailable):
+    """Report that the place that machines share files through could not be read or written just now."""
