@@ -35,8 +35,12 @@ from backend.store.settings import Settings
 from backend.store.states import RunState
 from backend.store.tables import runs
 
+WORK_S = 0.005
+"""How long a claimer is busy with each run, so that one alone cannot empty the queue before the others begin [s]."""
+
 CLAIM_ALL = """
 import sys
+import time
 from backend.store.database import open_database
 from backend.store.queue import claim
 from backend.store.settings import load_settings
@@ -46,6 +50,7 @@ print("ready", flush=True)
 sys.stdin.readline()
 while (claimed := claim(db, sys.argv[1])) is not None:
     print(claimed.run_id)
+    time.sleep(float(sys.argv[2]))
 """
 
 
@@ -53,7 +58,7 @@ def test_four_processes_claim_each_of_200_runs_once(db: Database, settings: Sett
     launched = launch(db, order(seeds=tuple(range(100)))) + launch(db, order(method="ddpg", seeds=tuple(range(100))))
     processes = [
         subprocess.Popen(
-            [sys.executable, "-c", CLAIM_ALL, f"worker-{number}"],
+            [sys.executable, "-c", CLAIM_ALL, f"worker-{number}", str(WORK_S)],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             text=True,
