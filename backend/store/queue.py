@@ -6,14 +6,15 @@ from dataclasses import dataclass
 from datetime import datetime, timedelta
 from typing import Any
 
-from sqlalchemy import Connection, func, insert, or_, select, update
+from sqlalchemy import Connection, exists, func, insert, or_, select, update
 
 from backend.store.claims import Claim
 from backend.store.database import Database, current_time
 from backend.store.dependents import settle_dependents
 from backend.store.errors import StaleFence
+from backend.store.order import CLAIM_ORDER
 from backend.store.states import Event, RunState, change_state, try_change_state
-from backend.store.tables import AnyRow, attempts, run_needs, runs
+from backend.store.tables import AnyRow, attempts, run_needs, runs, workers
 from sldr_core.config import config_from_dict
 from sldr_core.errors import InvalidConfig
 
@@ -81,10 +82,14 @@ Outcome = Succeeded | Failed | Cancelled | Paused | HandedBack
 """How an attempt ended."""
 
 
-def claim(db: Database, worker_id: str, lease_s: float = LEASE_S) -> Claim | None:
-    """Take the oldest queued run, or return None if there is nothing to do."""
+def claim(db: Database, worker_id: str, lease_s: float = LEASE_S, with_gpu: bool = True) -> Claim | None:
+    """Take the first queued run, or return None if there is nothing to do, or if the worker is draining.
+
+    Args:
+        with_gpu: whether runs that ask for a GPU may be taken as well.
+    """
     with db.write() as conn:
-        while (row := _take_next(conn, worker_id, lease_s)) is not None:
+        while (row := _take_next(conn, worker_id, lease_s, with_gpu)) is not None:
             try:
                 return _claim(conn, row)
             except InvalidConfig as err:
@@ -143,14 +148,19 @@ def reap_expired(db: Database, backoff_s: float = RETRY_BACKOFF_S) -> list[str]:
     return [row.id for row in expired]
 
 
-def _take_next(conn: Connection, worker_id: str, lease_s: float) -> AnyRow | None:
+def _take_next(conn: Connection, worker_id: str, lease_s: float, with_gpu: bool) -> AnyRow | None:
     at = current_time(conn)
-    oldest = (
+    draining = exists().where(workers.c.id == worker_id, workers.c.draining)
+    due = [runs.c.state == RunState.QUEUED, runs.c.deleted_at.is_(None), ~draining]
+    due.append(or_(runs.c.not_before.is_(None), runs.c.not_before <= at))
+    if not with_gpu:
+        due.append(~runs.c.needs_gpu)
+    first = (
         select(runs.c.id)
-        .where(runs.c.state == RunState.QUEUED, or_(runs.c.not_before.is_(None), runs.c.not_before <= at))
-        .order_by(runs.c.number)
+        .where(*due)
+        .order_by(*CLAIM_ORDER)
         .limit(1)
-        .with_for_update(skip_locked=True)
+        .with_for_update(skip_locked=True, of=runs)
         .scalar_subquery()
     )
     changes = {
@@ -159,9 +169,10 @@ def _take_next(conn: Connection, worker_id: str, lease_s: float) -> AnyRow | Non
         "worker_id": worker_id,
         "lease_until": at + timedelta(seconds=lease_s),
         "not_before": None,
+        "progress_at": at,
         "started_at": func.coalesce(runs.c.started_at, at),
     }
-    row = try_change_state(conn, oldest, Event.CLAIMED, at=at, changes=changes)
+    row = try_change_state(conn, first, Event.CLAIMED, at=at, changes=changes)
     if row is not None:
         opened = {"run_id": row.id, "attempt": row.attempt, "fence": row.fence, "worker_id": worker_id}
         conn.execute(insert(attempts).values(**opened, started_at=at))
@@ -177,6 +188,7 @@ def _claim(conn: Connection, row: AnyRow) -> Claim:
         worker_id=row.worker_id,
         config=config_from_dict(row.config),
         locomotion_run_ids=tuple(conn.execute(query).scalars()),
+        gate_waived=row.gate_waived,
         lease_until=row.lease_until,
     )
 

@@ -10,6 +10,7 @@ import pytest
 from sqlalchemy import update
 from store_cases import claim_next, claimed_run, order, queued_run
 
+from backend.store.actions import request_cancel
 from backend.store.claims import claim_from_json, claim_to_json
 from backend.store.database import Database
 from backend.store.errors import StaleFence, WrongState
@@ -30,7 +31,7 @@ from backend.store.queue import (
     read_requests,
     reap_expired,
 )
-from backend.store.runs import get_run, list_events, request_cancel
+from backend.store.runs import get_run, list_events
 from backend.store.settings import Settings
 from backend.store.states import RunState
 from backend.store.tables import runs
