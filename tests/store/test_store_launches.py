@@ -10,7 +10,8 @@ from store_cases import claim_next, order
 from backend.store.actions import request_cancel
 from backend.store.database import Database
 from backend.store.launches import LaunchOrder, launch, plan_launch
-from backend.store.queue import Failed, Succeeded, claim, finish
+from backend.store.outcomes import Failed, Succeeded
+from backend.store.queue import claim, finish
 from backend.store.runs import RunFilter, get_run, list_runs
 from backend.store.states import RunState
 from sldr_core.errors import InvalidConfig, UnknownName

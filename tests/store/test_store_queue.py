@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 import time
@@ -10,27 +11,16 @@ import pytest
 from sqlalchemy import update
 from store_cases import claim_next, claimed_run, order, queued_run
 
-from backend.store.actions import request_cancel
+from backend.store.actions import Action, act_on, request_cancel
 from backend.store.claims import claim_from_json, claim_to_json
 from backend.store.database import Database
 from backend.store.errors import StaleFence, WrongState
 from backend.store.files import register_file
 from backend.store.launches import launch
 from backend.store.metrics import append_metrics
+from backend.store.outcomes import MAX_ATTEMPTS, Cancelled, Failed, HandedBack, Paused, Succeeded
 from backend.store.progress import Progress, report_progress
-from backend.store.queue import (
-    MAX_ATTEMPTS,
-    Cancelled,
-    Failed,
-    HandedBack,
-    Paused,
-    Succeeded,
-    claim,
-    finish,
-    heartbeat,
-    read_requests,
-    reap_expired,
-)
+from backend.store.queue import claim, finish, heartbeat, read_requests, reap_expired
 from backend.store.runs import get_run, list_events
 from backend.store.settings import Settings
 from backend.store.states import RunState
@@ -63,7 +53,7 @@ def test_four_processes_claim_each_of_200_runs_once(db: Database, settings: Sett
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             text=True,
-            env=settings.as_environment(),
+            env={**os.environ, **settings.as_environment()},
         )
         for number in range(4)
     ]
@@ -194,6 +184,7 @@ def test_a_failure_that_would_repeat_is_not_retried(db: Database) -> None:
 
 def test_a_paused_run_gives_its_slot_back(db: Database) -> None:
     claimed = claimed_run(db)
+    act_on(db, Action.PAUSE, [claimed.run_id])
     finish(db, claimed, Paused())
 
     assert get_run(db, claimed.run_id).state is RunState.PAUSED
