@@ -63,7 +63,7 @@ def claim_from_json(line: str) -> Claim:
         worker_id=values["worker_id"],
         config=config_from_dict(values["config"]),
         locomotion_run_ids=tuple(values["locomotion_run_ids"]),
-        gate_waived=values["gate_waived"],
+        gate_waived=values.get("gate_waived", False),  # a worker from before an upgrade does not say
         lease_until=datetime.fromisoformat(values["lease_until"]),
     )
 
