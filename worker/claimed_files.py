@@ -14,10 +14,11 @@ from backend.store.blocks import get_blocks, read_block_list
 from backend.store.claims import Claim
 from backend.store.database import Database
 from backend.store.files import FileRow, list_files
+from backend.store.outcomes import CHECKPOINT_KIND
 from backend.store.settings import Settings
 from backend.store.storage import FileStorage, SharedPlace
-from worker.file_keeper import CHECKPOINT_KIND, LOG_FILE, REPLAY_FILE, REPLAY_LIST
-from worker.patience import when_possible
+from worker.file_keeper import LOG_FILE, REPLAY_FILE, REPLAY_LIST, FileKeeper
+from worker.patience import FILES_PATIENCE_S, insist
 
 ATTEMPT_FILE = ".attempt"
 """Holds the number of the attempt that has last written a run's directory."""
@@ -25,8 +26,10 @@ ATTEMPT_FILE = ".attempt"
 log = logging.getLogger(__name__)
 
 
-def bring_claimed_run(db: Database, settings: Settings, storage: FileStorage, claim: Claim) -> None:
+def bring_claimed_run(db: Database, settings: Settings, claim: Claim) -> None:
     """Make sure that the run's directory is no older than any other machine's, and sign it for this attempt.
+
+    Call it while the directory is held, as it is the run's own process that writes there.
 
     Raises:
         BadFile: what another machine has put at the shared place is damaged.
@@ -35,18 +38,29 @@ def bring_claimed_run(db: Database, settings: Settings, storage: FileStorage, cl
         StoreUnavailable: store or shared place could not be used for minutes.
     """
     directory = settings.run_directory(claim.run_id)
+    storage = FileStorage(settings)
     shared = storage.shared
     if shared is not None:
-        rows = when_possible(lambda: list_files(db, claim.run_id))
+        rows = insist(lambda: list_files(db, claim.run_id))
         checkpoint = next((row for row in rows if row.kind == CHECKPOINT_KIND), None)
         if checkpoint is not None and _last_attempt(directory) < checkpoint.attempt:
             _leave_old(directory)
-            when_possible(lambda: _bring_replay(shared, storage, rows, directory))
+            insist(lambda: _bring_replay(shared, storage, rows, directory), patience_s=FILES_PATIENCE_S)
             _bring_log(storage, rows, directory)
-            found = when_possible(lambda: storage.bring(checkpoint))
+            found = insist(lambda: storage.bring(checkpoint), patience_s=FILES_PATIENCE_S)
             found.rename(directory / checkpoint.name)
             log.info("The checkpoint of attempt %d, made on another machine, was fetched.", checkpoint.attempt)
+        FileKeeper(db, storage, claim).sweep()
     _sign(directory, claim.attempt)
+
+
+def send_log(db: Database, settings: Settings, claim: Claim) -> None:
+    """Let other machines read what the attempt has said.
+
+    Raises:
+        StaleFence: the run was given to another worker.
+    """
+    FileKeeper(db, FileStorage(settings), claim).keep_log(settings.run_directory(claim.run_id) / LOG_FILE)
 
 
 def _last_attempt(directory: Path) -> int:
@@ -79,7 +93,7 @@ def _bring_log(storage: FileStorage, rows: list[FileRow], directory: Path) -> No
     found = next((row for row in rows if row.name == LOG_FILE), None)
     if found is None:
         return
-    earlier = when_possible(lambda: storage.bring(found)).read_bytes()
+    earlier = insist(lambda: storage.bring(found), patience_s=FILES_PATIENCE_S).read_bytes()
     # In place, because this process writes to the end of that very file.
     with (directory / LOG_FILE).open("r+b" if (directory / LOG_FILE).exists() else "wb") as file:
         file.write(earlier)

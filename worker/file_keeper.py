@@ -15,10 +15,10 @@ from backend.store.claims import Claim
 from backend.store.database import Database
 from backend.store.errors import FilesUnavailable, NotFound
 from backend.store.files import FileRow, find_file, list_files, register_file
+from backend.store.outcomes import CHECKPOINT_KIND
 from backend.store.storage import FileStorage, SharedPlace, attempt_directory, checksum
-from worker.patience import when_possible
+from worker.patience import FILES_PATIENCE_S, insist
 
-CHECKPOINT_KIND = "checkpoint"
 REPLAY_FILE = "replay.bin"
 """What a checkpoint needs beside it in the run's directory."""
 REPLAY_LIST = "replay-blocks.json"
@@ -63,20 +63,23 @@ class FileKeeper:
         shared, claim = self._storage.shared, self._claim
         if shared is None or claim.attempt == 1:
             return
-        rows = when_possible(lambda: list_files(self._db, claim.run_id))
+        rows = insist(lambda: list_files(self._db, claim.run_id))
         held = {row.path for row in rows} | self._known_replay().paths
         for attempt in range(1, claim.attempt):
             directory = attempt_directory(claim.run_id, attempt)
-            for path in when_possible(lambda directory=directory: shared.paths_below(directory)):
-                if path not in held:
-                    self._forget(path)
+            try:
+                left = [path for path in shared.paths_below(directory) if path not in held]
+            except FilesUnavailable as err:
+                log.warning("Left behind: %s", err)
+                return
+            for path in left:
+                self._forget(path)
 
-    def _keep(self, name: str, kind: str, path: Path, patience_s: float | None = None) -> None:
+    def _keep(self, name: str, kind: str, path: Path, patience_s: float = FILES_PATIENCE_S) -> None:
         claim = self._claim
-        patience = {} if patience_s is None else {"patience_s": patience_s}
         size, digest = path.stat().st_size, checksum(path)
-        place = when_possible(lambda: self._storage.keep(claim.run_id, claim.attempt, path, digest), **patience)
-        before = when_possible(lambda: register_file(self._db, claim, name, kind, place, size, digest))
+        place = insist(lambda: self._storage.keep(claim.run_id, claim.attempt, path, digest), patience_s=patience_s)
+        before = insist(lambda: register_file(self._db, claim, name, kind, place, size, digest))
         if before is not None:
             self._forget(before)
 
@@ -85,7 +88,7 @@ class FileKeeper:
             return
         known = self._known_replay()
         directory = f"{attempt_directory(self._claim.run_id, self._claim.attempt)}/replay"
-        fresh = when_possible(lambda: put_blocks(shared, replay, directory, known))
+        fresh = insist(lambda: put_blocks(shared, replay, directory, known), patience_s=FILES_PATIENCE_S)
         path = replay.with_name(REPLAY_LIST)
         path.write_text(fresh.to_json())
         self._keep(REPLAY_LIST, "replay", path)
@@ -104,11 +107,14 @@ class FileKeeper:
         """Return the newest list of blocks that was registered, by this attempt or one before."""
         if self._replay is None:
             row = self._find(REPLAY_LIST)
-            self._replay = EMPTY if row is None else read_block_list(when_possible(lambda: self._storage.bring(row)))
+            self._replay = EMPTY if row is None else read_block_list(self._bring(row))
         return self._replay
+
+    def _bring(self, row: FileRow) -> Path:
+        return insist(lambda: self._storage.bring(row), patience_s=FILES_PATIENCE_S)
 
     def _find(self, name: str) -> FileRow | None:
         try:
-            return when_possible(lambda: find_file(self._db, self._claim.run_id, name))
+            return insist(lambda: find_file(self._db, self._claim.run_id, name))
         except NotFound:
             return None

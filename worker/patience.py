@@ -1,43 +1,47 @@
-"""Waiting for a store that cannot be used just now, such as a database server that is being restarted."""
+"""Waiting for a store that cannot be used just now: what is written must not be lost, and a training can wait."""
 
 from __future__ import annotations
 
 import logging
 import time
 from collections.abc import Callable
+from math import inf
 from typing import TypeVar
 
 from backend.store.errors import StoreUnavailable
 
-STORE_PATIENCE_S = 600.0
-"""How long a training waits for the store before it gives up; meanwhile nobody else can take its run [s]."""
-PAUSE_S = 0.5
+RETRY_S = 1.0
 """Between two tries [s]."""
+FILES_PATIENCE_S = 600.0
+"""How long a training waits for the place that machines share files through; then another attempt may try [s]."""
 
-T = TypeVar("T")
+Result = TypeVar("Result")
 
 log = logging.getLogger(__name__)
 
 
-def when_possible(act: Callable[[], T], patience_s: float = STORE_PATIENCE_S) -> T:
-    """Return what `act` returns, and try it again for as long as the store cannot be used.
+def insist(call: Callable[[], Result], retry_s: float = RETRY_S, patience_s: float = inf) -> Result:
+    """Call until the store can be used, however long that takes; return what the call returns.
+
+    Who calls this ends with its supervisor, so it cannot wait for ever on its own.
 
     Args:
-        act: something that may be done twice: the store may have done it although its answer was lost.
+        call: what to do; it may be done twice, if only its answer was lost.
+        retry_s: between two tries [s].
         patience_s: how long to try [s].
 
     Raises:
-        StoreUnavailable: the store could not be used for `patience_s`.
+        StoreUnavailable: patience has ended.
     """
     give_up_at = time.monotonic() + patience_s
-    told = False
+    warned = False
     while True:
         try:
-            return act()
+            return call()
         except StoreUnavailable as err:
-            if time.monotonic() > give_up_at:
+            if time.monotonic() >= give_up_at:
                 raise
-            if not told:
-                log.warning("Waiting for the store: %s", err)
-                told = True
-        time.sleep(PAUSE_S)
+            if not warned:
+                log.warning("Trying again and again: %s", err)
+                warned = True
+            time.sleep(retry_s)

@@ -16,26 +16,12 @@ from math import inf
 from backend.store.claims import Claim
 from backend.store.database import Database
 from backend.store.errors import StaleFence, StoreUnavailable
-from backend.store.queue import (
-    HEARTBEAT_S,
-    LEASE_S,
-    RETRY_BACKOFF_S,
-    Cancelled,
-    Failed,
-    HandedBack,
-    HeartbeatReply,
-    Outcome,
-    Paused,
-    claim,
-    finish,
-    read_requests,
-    reap_expired,
-)
+from backend.store.outcomes import RETRY_BACKOFF_S, Cancelled, Failed, HandedBack, Outcome, Paused
+from backend.store.queue import HEARTBEAT_S, LEASE_S, HeartbeatReply, claim, finish, read_requests, reap_expired
 from backend.store.workers import register_worker, retire
 from sldr_core.errors import InvalidConfig
 from worker.executors.local import LocalChild, LocalExecutor
 from worker.heart import Heart
-from worker.patience import when_possible
 from worker.words import StopWord
 
 BEATS_BEFORE_REAPING = 2.0
@@ -99,7 +85,7 @@ class Supervisor:
 
     def run(self) -> None:
         """Work until asked to stop. Call it from the main thread."""
-        worker_id = when_possible(lambda: register_worker(self._db, socket.gethostname(), os.getpid(), self._slots))
+        worker_id = register_worker(self._db, socket.gethostname(), os.getpid(), self._slots)
         timing = self._timing
         heart = Heart(self._db, worker_id, self._held, self._lose, timing.heartbeat_s, timing.lease_s)
         heart.start()

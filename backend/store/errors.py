@@ -1,9 +1,10 @@
 """The errors of the store.
 
 SldrError
-├── NotFound             there is no such run, file or session
+├── NotFound             there is no such run, worker, file or session
 ├── FileGone             a file that the store knows is not where it should be
 ├── WrongState           a run cannot do this in the state it is in
+├── Refused              something else than its state keeps a run from doing this
 ├── BadAddress           the address of the store or of the files cannot work
 ├── StoreTooNew          a later version of this program has used the store
 └── Unstorable           a value that no column can hold, such as text with a zero byte
@@ -54,6 +55,10 @@ class StoreTooNew(SldrError):
 
 class Unstorable(SldrError):
     """Report a value that the database can neither hold nor compare with what it holds."""
+
+
+class Refused(SldrError):
+    """Report what keeps a run from doing what was asked; the message says it."""
 
 
 class StaleFence(Exception):

@@ -31,9 +31,7 @@ class FileRow:
     created_at: datetime
 
 
-def register_file(
-    db: Database, claim: Claim, name: str, kind: str, path: str, size: int, sha256: str
-) -> str | None:
+def register_file(db: Database, claim: Claim, name: str, kind: str, path: str, size: int, sha256: str) -> str | None:
     """Record a file that an attempt has written; one of the same name is replaced.
 
     Returns:

@@ -12,7 +12,6 @@ import os
 from collections.abc import Generator, Iterator
 from contextlib import contextmanager
 from pathlib import Path, PurePosixPath
-from typing import Any
 
 from backend.store.errors import BadAddress, FileGone, FilesUnavailable
 from backend.store.files import FileRow
@@ -118,7 +117,7 @@ class SharedPlace:
                 f"{FILES_VARIABLE} cannot be used ({err}); write an address that fsspec knows, as in "
                 "file:///mnt/shared/sldr or s3://bucket/sldr."
             ) from err
-        self._root = str(root).rstrip("/")
+        self._root = root.rstrip("/")
         self._made: set[str] = set()
 
     def put(self, local: Path, path: str) -> None:
@@ -162,12 +161,12 @@ class SharedPlace:
     def read(self, path: str, start: int = 0) -> Iterator[bytes]:
         """Read a file piece by piece."""
         with self._told("read", path):
-            file: Any = self._files.open(f"{self._root}/{path}", "rb")
+            file = self._files.open(f"{self._root}/{path}", "rb")
         with file:
             file.seek(start)
             while True:
                 with self._told("read", path):
-                    piece: bytes = file.read(CHUNK)
+                    piece = file.read(CHUNK)
                 if not piece:
                     return
                 yield piece
@@ -192,7 +191,7 @@ class SharedPlace:
         """Return the paths of all files below a directory."""
         with self._told("read", directory):
             self._files.invalidate_cache()
-            found: list[str] = self._files.find(f"{self._root}/{directory}")
+            found = self._files.find(f"{self._root}/{directory}")
         # Some kinds of place leave out the slash that others begin a path with.
         return [path.lstrip("/").removeprefix(self._root.strip("/")).lstrip("/") for path in found]
 

@@ -11,7 +11,8 @@ from store_cases import claim_next, order
 
 from backend.store.database import Database
 from backend.store.launches import LaunchOrder, launch
-from backend.store.queue import Succeeded, finish
+from backend.store.outcomes import Succeeded
+from backend.store.queue import finish
 from backend.store.runs import RunFilter, get_run, list_runs
 from backend.store.states import RunState
 

@@ -23,7 +23,7 @@ def test_a_run_outlives_a_crash_of_the_database(
     db: Database, settings: Settings, postgres_server: PostgresServer, ends_while_away: bool
 ) -> None:
     run_id = queued_run(db)
-    wait_for_it = "Waiting for the store" if ends_while_away else "Metrics wait for the store"
+    wait_for_it = "Trying again and again" if ends_while_away else "Metrics wait for the store"
     with worker(db, settings, "counts-far"):
         wait_until(lambda: max(read_metrics(db, run_id).step, default=0) >= 5)
         postgres_server.stop(signal.SIGQUIT)
@@ -44,7 +44,7 @@ def test_a_worker_can_end_while_the_database_is_away(
         postgres_server.stop()
         try:
             process.send_signal(signal.SIGTERM)
-            wait_until(lambda: "Waiting for the store" in read_log(settings, run_id))
+            wait_until(lambda: "Trying again and again" in read_log(settings, run_id))
             process.send_signal(signal.SIGTERM)
             assert process.wait(timeout=30) == 0
         finally:
