@@ -31,7 +31,8 @@ log = logging.getLogger(__name__)
 class FileKeeper:
     """Keep what one attempt writes."""
 
-    def __init__(self, db: Database, storage: FileStorage, claim: Claim) -> None:
+    def __init__(self, db: Database, storage: FileStorage, claim: Claim, patience_s: float = FILES_PATIENCE_S) -> None:
+        self._patience_s = patience_s
         self._db = db
         self._storage = storage
         self._claim = claim
@@ -47,7 +48,7 @@ class FileKeeper:
         shared = self._storage.shared
         if shared is not None and kind == CHECKPOINT_KIND:
             self._keep_replay(shared, path.with_name(REPLAY_FILE))
-        self._keep(name, kind, path)
+        self._keep(name, kind, path, self._patience_s)
 
     def keep_log(self, path: Path) -> None:
         """Let other machines read the run's log. A run must not fail for that, so it is tried once."""
@@ -75,7 +76,7 @@ class FileKeeper:
             for path in left:
                 self._forget(path)
 
-    def _keep(self, name: str, kind: str, path: Path, patience_s: float = FILES_PATIENCE_S) -> None:
+    def _keep(self, name: str, kind: str, path: Path, patience_s: float) -> None:
         claim = self._claim
         size, digest = path.stat().st_size, checksum(path)
         place = insist(lambda: self._storage.keep(claim.run_id, claim.attempt, path, digest), patience_s=patience_s)
@@ -88,10 +89,10 @@ class FileKeeper:
             return
         known = self._known_replay()
         directory = f"{attempt_directory(self._claim.run_id, self._claim.attempt)}/replay"
-        fresh = insist(lambda: put_blocks(shared, replay, directory, known), patience_s=FILES_PATIENCE_S)
+        fresh = insist(lambda: put_blocks(shared, replay, directory, known), patience_s=self._patience_s)
         path = replay.with_name(REPLAY_LIST)
         path.write_text(fresh.to_json())
-        self._keep(REPLAY_LIST, "replay", path)
+        self._keep(REPLAY_LIST, "replay", path, self._patience_s)
         self._replay = fresh
         for left in known.paths - fresh.paths:
             self._forget(left)
@@ -111,7 +112,7 @@ class FileKeeper:
         return self._replay
 
     def _bring(self, row: FileRow) -> Path:
-        return insist(lambda: self._storage.bring(row), patience_s=FILES_PATIENCE_S)
+        return insist(lambda: self._storage.bring(row), patience_s=self._patience_s)
 
     def _find(self, name: str) -> FileRow | None:
         try:

@@ -114,25 +114,6 @@ def test_a_batch_is_stored_whole_or_not_at_all(db: Database) -> None:
     assert stored_points(db) == 0
 
 
-def test_points_sent_again_are_stored_once(db: Database) -> None:
-    claim = claimed_run(db)
-    log(db, claim, 1, 2)
-    log(db, claim, 1, 2, 3)
-
-    assert read_metrics(db, claim.run_id).values == {"train/success_rate": [0.01, 0.02, 0.03]}
-
-
-def test_another_metric_of_a_step_that_is_stored_is_added(db: Database) -> None:
-    claim = claimed_run(db)
-    log(db, claim, 1)
-    append_metrics(db, claim, [MetricPoint(step(1), {"train/success_rate": 0.01, "a/x": 5.0})])
-
-    columns = read_metrics(db, claim.run_id)
-
-    assert columns.step == [1, 1]
-    assert columns.values == {"a/x": [None, 5.0], "train/success_rate": [0.01, None]}
-
-
 def test_a_number_that_is_not_finite_is_refused_by_name(db: Database) -> None:
     claim = claimed_run(db)
 
