@@ -10,7 +10,7 @@ import pytest
 import torch
 from small_training import collected_parts, save_untrained_model, tiny_config
 
-from sldr_core.config import find_task
+from sldr_core.config import SldrConfig, find_task
 from sldr_core.nets.locomotion_model import LocomotionModel, LocomotionNets, Measured
 from sldr_core.nets.transitions import Transitions
 from sldr_core.nets.views import part_view
@@ -37,7 +37,7 @@ def nets() -> LocomotionNets:
 @pytest.fixture
 def stream(nets: LocomotionNets) -> SldrStream:
     model = LocomotionModel(nets, tiny_config(), Measured(1.0, 1))
-    return SldrStream("object0", 1.0, model, OBJECT, CPU, autocast=False)
+    return SldrStream("object0", SldrConfig(), model, OBJECT, CPU, autocast=False)
 
 
 @pytest.fixture
@@ -139,7 +139,7 @@ def test_an_object_that_does_what_it_wants_earns_the_most(
 def test_a_training_rewards_relabelled_goals_as_the_equation_does(tmp_path: Path) -> None:
     model = save_untrained_model(tmp_path / "model.pt")
     parts = collected_parts(tiny_config("manipulation", "her-sldr"), tmp_path, (model,))
-    sample = parts.sampler.sample(100)
+    sample = parts.sampler.sample(100, 0)
     tensors = [torch.from_numpy(part) for part in (sample.obs, sample.next_obs, sample.goal, sample.action)]
     extra = {name: torch.from_numpy(values) for name, values in sample.extra.items()}
     batch = Transitions(*tensors, reward=torch.from_numpy(sample.reward), extra=extra)
