@@ -107,7 +107,7 @@ METHODS: dict[str, MethodSpec] = {
             title="HER-Dense",
             summary="HER with minus the distance from the goal as the reward.",
             explanation="The environment rewards every step by how far the goal is: metres on the table; in the hand "
-            "ten times the metres plus the radians, of what counts. Success is measured, and values are clipped, as with "
+            "ten times the metres plus the radians, of what counts. Success is measured and values are clipped as with "
             "the sparse reward.",
             paper="§6.2",
             relabel_probability=HER_RELABEL_PROBABILITY,
