@@ -30,7 +30,7 @@ def no_reward(achieved: Floats, goal: Floats) -> Floats:
 
 
 def euclidean(goals: Floats, others: Floats) -> np.ndarray:
-    return np.linalg.norm(np.float64(goals)[..., :, None, :] - others[..., None, :, :], axis=-1)
+    return np.linalg.norm(np.asarray(goals, np.float64)[..., :, None, :] - others[..., None, :, :], axis=-1)
 
 
 def plain_greedy(goals: np.ndarray, achieved: np.ndarray, nearness: float, positions: np.ndarray) -> list[int]:
