@@ -13,11 +13,11 @@ from pathlib import Path
 from backend.store.blocks import get_blocks, read_block_list
 from backend.store.claims import Claim
 from backend.store.database import Database
-from backend.store.files import FileRow, list_files
+from backend.store.files import LOG_FILE, REPLAY_FILE, REPLAY_LIST, FileRow, list_files
 from backend.store.outcomes import CHECKPOINT_KIND
 from backend.store.settings import Settings
 from backend.store.storage import FileStorage, SharedPlace
-from worker.file_keeper import LOG_FILE, REPLAY_FILE, REPLAY_LIST, FileKeeper
+from worker.file_keeper import FileKeeper
 from worker.patience import FILES_PATIENCE_S, insist
 
 ATTEMPT_FILE = ".attempt"
