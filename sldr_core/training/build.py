@@ -11,20 +11,23 @@ import torch
 
 from sldr_core.agent import DdpgAgent, InverseLearner
 from sldr_core.config import TrainConfig
+from sldr_core.disk import check_room
 from sldr_core.envs import Envs, make_envs
 from sldr_core.errors import BadFile, LocomotionMissing
 from sldr_core.nets.locomotion_model import LocomotionModel, load_locomotion_model
 from sldr_core.nets.views import part_view, view_of
 from sldr_core.presets import locomotion_tasks
-from sldr_core.replay import HindsightSampler, ReplayBuffer
+from sldr_core.replay import HindsightSampler, ReplayBuffer, replay_bytes
 from sldr_core.streams import SldrStream, Stream, TaskStream
 from sldr_core.training.compute import Compute, resolve_compute
+from sldr_core.training.files import REPLAY_FILE, planned_sizes
 from sldr_core.training.rollout import Exploration
-
-REPLAY_FILE = "replay.bin"
 
 CHECKPOINT_CYCLES = 10
 """A checkpoint is written at least once in so many cycles."""
+
+CHECKPOINTS_KEPT = 2
+"""The newest, and the one before for when it is damaged: the replay file serves both."""
 
 TEST_SEED_OFFSET = 2**31
 """Test episodes draw from generators that no training episode uses."""
@@ -81,12 +84,11 @@ def build_training(config: TrainConfig, directory: Path, locomotion_models: Sequ
     )
     locomotion = config.phase == "locomotion"
     inverse = InverseLearner(envs.obs_size, envs.action_size, config.agent, weights, compute.device, compute.autocast)
-    buffer = ReplayBuffer(
-        directory / REPLAY_FILE,
-        _episode_shapes(envs, streams),
-        capacity=config.replay.capacity // task.episode_length,
-        slack=(CHECKPOINT_CYCLES + loop.warmup_cycles + 1) * loop.episodes_per_cycle,
-    )
+    shapes, capacity = _episode_shapes(envs, streams), config.replay.capacity // task.episode_length
+    slack = (CHECKPOINTS_KEPT * CHECKPOINT_CYCLES + loop.warmup_cycles + 1) * loop.episodes_per_cycle
+    learners = [agent.state_dict(), *([inverse.state_dict()] if locomotion else [])]
+    check_room(directory, planned_sizes(config, replay_bytes(shapes, capacity + slack), envs.state(), learners))
+    buffer = ReplayBuffer(directory / REPLAY_FILE, shapes, capacity, slack)
     rng = np.random.default_rng(sampling_seed)
     return Parts(
         config=config,

@@ -14,14 +14,20 @@ from sldr_core.config import TrainConfig
 from sldr_core.nets.locomotion_model import LocomotionModel, LocomotionNets, Measured
 from sldr_core.records import Step
 from sldr_core.training.build import CHECKPOINT_CYCLES, Parts, build_training
-from sldr_core.training.checkpoint import CHECKPOINT_FILE, Counters, read_checkpoint, restore_training, write_checkpoint
+from sldr_core.training.checkpoint import (
+    Counters,
+    keep_previous,
+    read_newest,
+    restore_training,
+    write_checkpoint,
+)
 from sldr_core.training.cycle import collect, collect_random, learn
-from sldr_core.training.policy import BEST_POLICY_FILE, NEWEST_POLICY_FILE, write_policy
+from sldr_core.training.directory import alone_in
+from sldr_core.training.files import BEST_POLICY_FILE, CHECKPOINT_FILE, LOCOMOTION_FILE, NEWEST_POLICY_FILE
+from sldr_core.training.policy import write_policy
 from sldr_core.training.recorder import Recorder, StopReason
 from sldr_core.training.rollout import Collected, numpy_policy
 from sldr_core.training.testing import run_test
-
-LOCOMOTION_FILE = "locomotion.pt"
 
 
 @dataclass(frozen=True)
@@ -49,15 +55,15 @@ def train(config: TrainConfig, recorder: Recorder, locomotion_models: Sequence[P
     Raises:
         SldrError: something that would fail again: a bad file, a missing model, a full disk, diverged numbers.
     """
-    checkpoint = recorder.directory / CHECKPOINT_FILE
-    # Read before anything is built: building would replace the replay file of another config.
-    content = read_checkpoint(checkpoint, config) if checkpoint.exists() else None
-    parts = build_training(config, recorder.directory, locomotion_models)
-    counters = restore_training(checkpoint, content, parts) if content else Counters()
-    try:
-        stopped = _Loop(parts, counters, recorder).run()
-    except _Cancelled:
-        stopped = "cancel"
+    with alone_in(recorder.directory):
+        # Read before anything is built: building would replace the replay file of another config.
+        kept = read_newest(recorder.directory, config)
+        parts = build_training(config, recorder.directory, locomotion_models)
+        counters = restore_training(kept, parts) if kept else Counters()
+        try:
+            stopped = _Loop(parts, counters, recorder).run()
+        except _Cancelled:
+            stopped = "cancel"
     return TrainResult(
         finished=stopped is None,
         stopped=stopped,
@@ -164,7 +170,10 @@ class _Loop:
         )
 
     def _save_checkpoint(self) -> None:
-        write = partial(write_checkpoint, parts=self._parts, counters=self._counters)
+        def write(path: Path) -> None:
+            write_checkpoint(path, self._parts, self._counters)
+            keep_previous(self._recorder.directory)
+
         self._recorder.save_file(CHECKPOINT_FILE, "checkpoint", write)
 
     def _check(self) -> None:

@@ -14,7 +14,9 @@ from pathlib import Path
 import pytest
 from small_training import (
     CODE_OF_A_TRAINING,
+    StoppingRecorder,
     assert_same_training,
+    long_config,
     metrics_of,
     run,
     save_untrained_model,
@@ -27,26 +29,6 @@ from sldr_core.records import Step
 from sldr_core.training import DirectoryRecorder, StopReason, train
 
 TIMEOUT_S = 120.0
-
-
-def long_config() -> TrainConfig:
-    """Return 24 cycles: two checkpoints before the last one."""
-    return tiny_config(epochs=2, cycles_per_epoch=12)
-
-
-class StoppingRecorder(DirectoryRecorder):
-    """Ask for a stop once so many lines are logged."""
-
-    def __init__(self, directory: Path, after: int, reason: StopReason) -> None:
-        super().__init__(directory)
-        self._left = after
-        self._reason: StopReason = reason
-
-    def log(self, step: Step, metrics: Mapping[str, float]) -> None:
-        super().log(step, metrics)
-        self._left -= 1
-        if self._left == 0:
-            self.request_stop(self._reason)
 
 
 class CancelledInTheMiddle(DirectoryRecorder):
@@ -147,8 +129,8 @@ def test_a_checkpoint_is_written_every_ten_cycles(tmp_path: Path) -> None:
 
     train(long_config(), Watcher(tmp_path))
 
-    assert seen == {cycle: (cycle - 1) // 10 * 10 or None for cycle in range(1, 25)}
-    assert state_of(tmp_path)["counters"]["cycle"] == 24
+    assert seen == {cycle: (cycle - 1) // 10 * 10 or None for cycle in range(1, 41)}
+    assert state_of(tmp_path)["counters"]["cycle"] == 40
 
 
 def kill_in_the_middle(config: TrainConfig, directory: Path, least_cycles: int, delay_s: float) -> int:
