@@ -41,18 +41,6 @@ SHORT_PUSH = replace(
 """FetchPush with episodes that are over soon; `conftest.py` makes it known."""
 
 
-CODE_OF_A_TRAINING = """
-import json, sys
-from pathlib import Path
-from small_training import know_short_push
-from sldr_core.config import config_from_dict
-from sldr_core.training import DirectoryRecorder, train
-know_short_push()
-train(config_from_dict(json.loads(sys.argv[1])), DirectoryRecorder(Path(sys.argv[2])))
-"""
-"""What a process runs that trains a config, in JSON, in a directory; its two arguments."""
-
-
 class StoppingRecorder(DirectoryRecorder):
     """Ask for a stop once so many lines are logged."""
 

@@ -3,17 +3,12 @@
 from __future__ import annotations
 
 import json
-import random
-import signal
-import subprocess
-import sys
 import time
 from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
 from small_training import (
-    CODE_OF_A_TRAINING,
     StoppingRecorder,
     assert_same_training,
     long_config,
@@ -24,11 +19,8 @@ from small_training import (
     tiny_config,
 )
 
-from sldr_core.config import TrainConfig, config_to_dict
 from sldr_core.records import Step
 from sldr_core.training import DirectoryRecorder, StopReason, train
-
-TIMEOUT_S = 120.0
 
 
 class CancelledInTheMiddle(DirectoryRecorder):
@@ -87,17 +79,6 @@ def test_a_stop_asked_for_with_the_last_cycle_is_a_finish(tmp_path: Path) -> Non
     assert (result.finished, result.stopped) == (True, None)
 
 
-@pytest.mark.parametrize("least_cycles", [1, 11], ids=["before-the-first-checkpoint", "after-a-checkpoint"])
-def test_a_killed_training_goes_on_to_the_same_bits(least_cycles: int, uninterrupted: Path, tmp_path: Path) -> None:
-    delay_s = random.SystemRandom().uniform(0.0, 0.3)
-
-    logged = kill_in_the_middle(long_config(), tmp_path, least_cycles, delay_s)
-    run(long_config(), tmp_path)
-
-    assert logged < long_config().total_cycles, "it was done before it was killed"
-    assert_same_training(tmp_path, uninterrupted)
-
-
 def test_cancelling_ends_a_training_at_once(tmp_path: Path) -> None:
     recorder = CancelledInTheMiddle(tmp_path)
 
@@ -131,20 +112,3 @@ def test_a_checkpoint_is_written_every_ten_cycles(tmp_path: Path) -> None:
 
     assert seen == {cycle: (cycle - 1) // 10 * 10 or None for cycle in range(1, 41)}
     assert state_of(tmp_path)["counters"]["cycle"] == 40
-
-
-def kill_in_the_middle(config: TrainConfig, directory: Path, least_cycles: int, delay_s: float) -> int:
-    """Train in a process of its own, kill it `delay_s` after so many cycles; return how many it logged."""
-    arguments = [json.dumps(config_to_dict(config)), str(directory)]
-    process = subprocess.Popen([sys.executable, "-c", CODE_OF_A_TRAINING, *arguments], cwd=Path(__file__).parent)
-    deadline, path = time.monotonic() + TIMEOUT_S, directory / "metrics.jsonl"
-    try:
-        while not path.exists() or path.read_text().count("\n") < least_cycles:
-            assert process.poll() is None, "the training ended by itself"
-            assert time.monotonic() < deadline, "the training logged nothing"
-            time.sleep(0.01)
-        time.sleep(delay_s)
-    finally:
-        process.send_signal(signal.SIGKILL)
-        process.wait()
-    return path.read_text().count("\n")
