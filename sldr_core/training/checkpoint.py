@@ -29,7 +29,10 @@ from sldr_core.training.files import (
 KIND = "checkpoint"
 
 PARTS = frozenset(
-    ("agent", "inverse", "envs", "test_envs", "sampler_rng", "exploration_rng", "counters", "replay_written")
+    (
+        *("agent", "inverse", "streams", "envs", "test_envs"),
+        *("sampler_rng", "exploration_rng", "counters", "replay_written"),
+    )
 )
 """What a checkpoint cannot do without."""
 
@@ -80,6 +83,7 @@ def write_checkpoint(path: Path, parts: Parts, counters: Counters) -> None:
             "counters": asdict(counters),
             "agent": parts.agent.state_dict(),
             "inverse": parts.inverse.state_dict() if parts.inverse else None,
+            "streams": {stream.name: stream.state_dict() for stream in parts.streams},
             "envs": _pack_envs(parts.envs),
             "test_envs": _pack_envs(parts.test_envs),
             "sampler_rng": _pack_rng(parts.sampler.rng),
@@ -153,6 +157,8 @@ def restore_training(kept: Kept, parts: Parts) -> Counters:
         parts.agent.load_state_dict(content["agent"])
         if parts.inverse is not None:
             parts.inverse.load_state_dict(content["inverse"])
+        for stream in parts.streams:
+            stream.load_state_dict(content["streams"][stream.name])
         _unpack_envs(parts.envs, content["envs"])
         _unpack_envs(parts.test_envs, content["test_envs"])
         _unpack_rng(parts.sampler.rng, content["sampler_rng"])

@@ -59,10 +59,9 @@ export function LaunchChoices({ choices, chosen, problems, onChoose }: Props) {
           value: method.name,
           title: method.name,
           summary: method.summary,
-          obstacle:
-            chosen.phase === 'locomotion' && method.needs_locomotion
-              ? 'Only for manipulation: it needs a locomotion model.'
-              : undefined,
+          obstacle: method.phases.includes(chosen.phase)
+            ? undefined
+            : 'Only for manipulation: an object learns from the sparse reward alone.',
         }))}
       />
       <ChoiceCards
