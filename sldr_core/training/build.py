@@ -59,6 +59,12 @@ class Parts:
     """Learnt beside the object's policy in locomotion."""
     streams: tuple[Stream, ...]
 
+    def learner_states(self) -> dict[str, Any]:
+        """Return the states of everything that learns, by name."""
+        inverse = {} if self.inverse is None else {"inverse": self.inverse.state_dict()}
+        streams = {f"stream {stream.name}": stream.state_dict() for stream in self.streams}
+        return {"agent": self.agent.state_dict(), **inverse, **streams}
+
 
 def build_training(config: TrainConfig, directory: Path, locomotion_models: Sequence[Path]) -> Parts:
     """Put a training together.

@@ -21,7 +21,7 @@ NEWEST_POLICY_FILE = "policy-newest.pt"
 BEST_POLICY_FILE = "policy-best.pt"
 LOCOMOTION_FILE = "locomotion.pt"
 
-METRICS_LINE = 4096
+METRICS_LINE = 8192
 """More than the line of a cycle ever takes [bytes]."""
 
 ADAM_COPIES = 3

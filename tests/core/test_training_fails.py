@@ -105,7 +105,7 @@ def test_a_reward_that_is_no_number_ends_the_training_by_the_name_of_its_metric(
 
     monkeypatch.setattr(TaskStream, "reward", poisoned)
 
-    with pytest.raises(TrainingDiverged, match="stream/task/mean became nan: training was stopped; lower agent"):
+    with pytest.raises(TrainingDiverged, match="the reward of stream 'task' became nan in cycle 1: training was"):
         run(tiny_config(), tmp_path)
     assert not (tmp_path / "checkpoint.pt").exists()
 
