@@ -89,11 +89,12 @@ def load_locomotion_model(path: Path) -> LocomotionModel:
     """Read a locomotion model; its config says of which task it is.
 
     Raises:
-        BadFile: it is missing, corrupt or something else.
+        BadFile: it is missing, corrupt or something else, or its networks are not those of its task.
     """
     content: dict[str, Any] = load_tensors(path, KIND)
     try:
         config = config_from_dict(content["config"])
+        _check_origin(path, content, config)
         nets = LocomotionNets(config, torch.Generator())
         nets.load_state_dict(content["nets"])
         measured = Measured(float(content["success_rate"]), int(content["test_episodes"]))
@@ -101,3 +102,13 @@ def load_locomotion_model(path: Path) -> LocomotionModel:
         raise BadFile(f"{path} is no usable locomotion model ({one_line(err)}); train it again.") from err
     nets.requires_grad_(False).eval()
     return LocomotionModel(nets, config, measured)
+
+
+def _check_origin(path: Path, content: dict[str, Any], config: TrainConfig) -> None:
+    """Compare what the file says of itself with its config."""
+    said = (content.get("task", config.task), content.get("phase", config.phase))
+    if said != (config.task, config.phase) or config.phase != "locomotion":
+        raise BadFile(
+            f"{path} says it is of {said[0]} ({said[1]}), but its config is of {config.task} ({config.phase}); "
+            "train it again."
+        )

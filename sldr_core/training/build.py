@@ -11,7 +11,7 @@ import numpy as np
 import torch
 
 from sldr_core.agent import DdpgAgent, InverseLearner
-from sldr_core.config import Auxiliary, SamplerName, TrainConfig
+from sldr_core.config import Auxiliary, SamplerName, TrainConfig, find_task
 from sldr_core.disk import check_room
 from sldr_core.envs import Envs, make_envs
 from sldr_core.errors import BadFile, LocomotionMissing
@@ -141,6 +141,11 @@ def _load_models(config: TrainConfig, paths: Sequence[Path]) -> dict[str, Locomo
         task = model.config.task
         if task not in needed:
             raise BadFile(f"{path} is a locomotion model of {task}; {config.task} needs {_of_tasks(needed)}.")
+        if model.config.task_spec != find_task(task, config.scene.variant):
+            raise BadFile(
+                f"{path} is a locomotion model of {task} in variant '{model.config.scene.variant}', whose numbers "
+                f"differ from those of variant '{config.scene.variant}'; train its object there, or set scene.variant."
+            )
         if task in models:
             raise BadFile(f"{path} is a second locomotion model of {task}; give one of each task.")
         if model.measured.success_rate < config.sldr.gate:

@@ -6,7 +6,6 @@ import json
 import logging
 import shutil
 from dataclasses import asdict, dataclass, fields
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -97,8 +96,12 @@ def write_checkpoint(path: Path, parts: Parts, counters: Counters) -> None:
 def keep_previous(directory: Path) -> None:
     """Keep a copy of the newest checkpoint, which is about to be replaced."""
     newest = directory / CHECKPOINT_FILE
+
+    def copy(path: Path) -> None:
+        shutil.copyfile(newest, path)
+
     if newest.exists():
-        write_atomically(directory / PREVIOUS_CHECKPOINT_FILE, partial(shutil.copyfile, newest))
+        write_atomically(directory / PREVIOUS_CHECKPOINT_FILE, copy)
 
 
 def read_newest(directory: Path, config: TrainConfig) -> Kept | None:

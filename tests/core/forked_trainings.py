@@ -120,9 +120,17 @@ def watch(reaper: Reaper) -> None:
         file = opened(path, mode, *arguments, **named)
         return WatchedLines(file, reaper) if mode == "a" else file
 
-    Envs.step, DdpgAgent.update, ReplayBuffer.__init__ = watched_step, watched_update, watched_build
-    Path.rename, Path.write_bytes, Path.open = watched_rename, watched_write, watched_open  # pyright: ignore
-    shutil.copyfile = watched_copy  # pyright: ignore
+    replaced: list[tuple[Any, str, Callable[..., Any]]] = [
+        (Envs, "step", watched_step),
+        (DdpgAgent, "update", watched_update),
+        (ReplayBuffer, "__init__", watched_build),
+        (Path, "rename", watched_rename),
+        (Path, "write_bytes", watched_write),
+        (Path, "open", watched_open),
+        (shutil, "copyfile", watched_copy),
+    ]
+    for owner, name, watched in replaced:
+        setattr(owner, name, watched)
 
 
 def train(order: dict[str, Any]) -> None:

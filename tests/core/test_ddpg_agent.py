@@ -174,9 +174,8 @@ def test_metrics_of_a_critic_are_those_of_its_values_and_targets() -> None:
     agent = make_agent()
     batch, _ = draw_batch(0)
     # gamma is 0.9, so targets are clipped to [-10, 0]: a quarter of them each lies below and above.
-    rewards = torch.tensor([[-100.0, 100.0, -5.0, -5.0], [-1.0, -1.0, -1.0, 100.0]]).repeat_interleave(
-        BATCH // 4, dim=1
-    )
+    quarters = torch.tensor([[-100.0, 100.0, -5.0, -5.0], [-1.0, -1.0, -1.0, 100.0]])
+    rewards = quarters.repeat_interleave(BATCH // 4, dim=1)
     inputs = torch.cat([agent.features(batch.obs, batch.goal), batch.action], dim=-1)
     values = agent.critics(inputs)[1, :, 0].detach()
 
