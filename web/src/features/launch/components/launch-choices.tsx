@@ -58,7 +58,7 @@ export function LaunchChoices({ choices, chosen, problems, onChoose }: Props) {
         cards={choices.methods.map((method) => ({
           value: method.name,
           title: method.name,
-          summary: method.summary,
+          summary: `${method.summary} In the paper: ${method.title}.`,
           obstacle: method.phases.includes(chosen.phase)
             ? undefined
             : 'Only for manipulation: an object learns from the sparse reward alone.',
