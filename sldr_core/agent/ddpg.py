@@ -56,6 +56,7 @@ class DdpgAgent:
         self._target_actor = deepcopy(self.actor).requires_grad_(False)
         self._target_critics = deepcopy(self.critics).requires_grad_(False)
         self._weights = torch.tensor(stream_weights, device=device)
+        self._lowest = torch.tensor(_lowest_targets(config, len(self._streams)), device=device)
         self._actor_optimiser = torch.optim.Adam(self.actor.parameters(), lr=config.learning_rate, fused=True)
         self._critic_optimiser = torch.optim.Adam(self.critics.parameters(), lr=config.learning_rate, fused=True)
 
@@ -121,7 +122,7 @@ class DdpgAgent:
         with torch.no_grad():
             next_action = self._target_actor(next_features)
             next_q = self._target_critics(torch.cat([next_features, next_action], dim=-1))[..., 0]
-            target = td_target(rewards, next_q.float(), self._config.gamma)
+            target = td_target(rewards, next_q.float(), self._config.gamma, self._lowest)
         q = self.critics(torch.cat([features, action], dim=-1))[..., 0].float()
         losses = critic_losses(q, target)
         _descend(losses.sum(), self.critics, self._critic_optimiser)
@@ -137,7 +138,7 @@ class DdpgAgent:
             "q_mean": q.mean(dim=1),
             "q_min": q.amin(dim=1),
             "q_max": q.amax(dim=1),
-            "target_clip_low_share": (target <= lowest_return(self._config.gamma)).float().mean(dim=1),
+            "target_clip_low_share": (target <= self._lowest[:, None]).float().mean(dim=1),
             "target_clip_high_share": (target >= 0.0).float().mean(dim=1),
         }
         return {
@@ -159,6 +160,12 @@ class DdpgAgent:
 
     def _precision(self) -> AbstractContextManager[Any]:
         return torch.autocast(self._device.type, dtype=torch.bfloat16, enabled=self._autocast)
+
+
+def _lowest_targets(config: AgentConfig, streams: int) -> list[float]:
+    """Return the lowest target of the task's critic, which is the first, and of the others."""
+    task = config.lowest_return or lowest_return(config.gamma)
+    return [task] + [config.lowest_auxiliary_return or task] * (streams - 1)
 
 
 def _descend(loss: Tensor, module: torch.nn.Module, optimiser: torch.optim.Optimizer) -> None:
