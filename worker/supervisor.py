@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import logging
 import os
-import signal
 import socket
 import time
 from dataclasses import dataclass, field
@@ -33,7 +32,7 @@ from backend.store.queue import (
 )
 from backend.store.workers import register_worker, retire
 from sldr_core.errors import InvalidConfig
-from worker.executors.local import LocalChild, LocalExecutor
+from worker.executors import Child, Executor
 from worker.heart import Heart
 from worker.words import StopWord
 
@@ -65,7 +64,7 @@ class _Attempt:
     """One child, and what was asked of it."""
 
     claim: Claim
-    child: LocalChild
+    child: Child
     asked: StopWord | None = None
     kill_at: float = field(default=inf)
     """When patience ends, on the monotonic clock [s]."""
@@ -74,7 +73,7 @@ class _Attempt:
 class Supervisor:
     """Keep `slots` trainings running as long as there is something to train."""
 
-    def __init__(self, db: Database, executor: LocalExecutor, slots: int, timing: Timing | None = None) -> None:
+    def __init__(self, db: Database, executor: Executor, slots: int, timing: Timing | None = None) -> None:
         if slots < 1:
             raise InvalidConfig({"slots": f"a worker needs at least 1, got {slots}"})
         self._db = db
@@ -132,7 +131,7 @@ class Supervisor:
             attempt.kill_at = 0.0
 
     def _fill_slots(self, worker_id: str) -> None:
-        while len(self._attempts) < self._slots:
+        while len(self._attempts) < self._slots and self._executor.has_room():
             claimed = claim(self._db, worker_id, self._timing.lease_s)
             if claimed is None:
                 return
@@ -146,14 +145,14 @@ class Supervisor:
             self._finish(claimed, Failed(f"Its process could not be started: {err}.", retry=True))
             return
         self._attempts[claimed.run_id] = _Attempt(claimed, child)
-        log.info("Run %s, attempt %d: started as process %d.", claimed.run_id, claimed.attempt, child.pid)
+        log.info("Run %s, attempt %d: started as %s.", claimed.run_id, claimed.attempt, child.place)
 
     def _report_ended(self) -> None:
         for run_id, attempt in list(self._attempts.items()):
             status = attempt.child.poll()
             if status is None:
                 continue
-            self._finish(attempt.claim, _outcome_of(attempt.asked, status))
+            self._finish(attempt.claim, _outcome_of(attempt))
             attempt.child.wait()
             del self._attempts[run_id]
             log.info("Run %s, attempt %d: ended with status %d.", run_id, attempt.claim.attempt, status)
@@ -184,7 +183,7 @@ class Supervisor:
         at_once = self._stops_asked > 1
         for attempt in self._attempts.values():
             if at_once or time.monotonic() >= attempt.kill_at:
-                log.warning("Run %s: its process %d is killed.", attempt.claim.run_id, attempt.child.pid)
+                log.warning("Run %s: its %s is killed.", attempt.claim.run_id, attempt.child.place)
                 attempt.child.kill()
 
     def _reap(self) -> None:
@@ -195,9 +194,9 @@ class Supervisor:
             log.warning("Run %s: its worker gave no sign of life; it was taken from it.", run_id)
 
 
-def _outcome_of(asked: StopWord | None, status: int) -> Outcome:
+def _outcome_of(attempt: _Attempt) -> Outcome:
     """Say how an attempt ended whose child did not say so itself."""
-    match asked:
+    match attempt.asked:
         case "cancel":
             return Cancelled()
         case "pause":
@@ -205,15 +204,4 @@ def _outcome_of(asked: StopWord | None, status: int) -> Outcome:
         case "shutdown":
             return HandedBack("Its worker was asked to end.")
         case None:
-            return Failed(_cause(status), retry=True)
-
-
-def _cause(status: int) -> str:
-    if status >= 0:
-        return f"Its process ended early with exit status {status}; the log says more."
-    try:
-        name = signal.Signals(-status).name
-    except ValueError:
-        name = f"signal {-status}"
-    hint = " (the machine may be out of memory)" if name == "SIGKILL" else ""
-    return f"Its process was killed by {name}{hint}."
+            return attempt.child.outcome()

@@ -58,6 +58,14 @@ class Failed:
 
 
 @dataclass(frozen=True)
+class Lost:
+    """The attempt's process is out of reach for good: its machine, or what ran it there, is gone."""
+
+    reason: str
+    """Why, in one sentence."""
+
+
+@dataclass(frozen=True)
 class Cancelled:
     """The training ended because a person wished so."""
 
@@ -77,7 +85,7 @@ class HandedBack:
     """How long no worker should take it [s]."""
 
 
-Outcome = Succeeded | Failed | Cancelled | Paused | HandedBack
+Outcome = Succeeded | Failed | Lost | Cancelled | Paused | HandedBack
 """How an attempt ended."""
 
 
@@ -191,6 +199,8 @@ def _finish(conn: Connection, row: AnyRow, outcome: Outcome, at: datetime, backo
             _end(conn, row, Event.FAILED, at, reason)
         case Failed(reason):
             _retry(conn, row, Event.RETRIED, reason, at, backoff_s)
+        case Lost(reason):
+            _retry(conn, row, Event.LOST, reason, at, backoff_s)
         case Paused():
             _leave(conn, row, Event.PAUSED, at, None, {})
         case HandedBack(reason, delay_s):

@@ -10,7 +10,9 @@ from collections.abc import Sequence
 from contextlib import suppress
 
 from backend.store.claims import Claim, claim_to_json
+from backend.store.queue import Outcome
 from backend.store.settings import Settings
+from worker.executors.endings import failure_of
 
 CHILD_COMMAND = (sys.executable, "-m", "worker.child")
 LOG_FILE = "log.txt"
@@ -27,6 +29,11 @@ class LocalChild:
         """Its process id, which is also that of its group."""
         return self._process.pid
 
+    @property
+    def place(self) -> str:
+        """Its process, in words."""
+        return f"process {self.pid}"
+
     def tell(self, message: str) -> None:
         """Pass it one line; one that no longer listens is left alone."""
         assert self._process.stdin is not None
@@ -37,6 +44,10 @@ class LocalChild:
     def poll(self) -> int | None:
         """Return its exit status (a negative signal number if it was killed), or None while it runs."""
         return self._process.poll()
+
+    def outcome(self) -> Outcome:
+        """Say how the attempt ended, as far as its exit status tells."""
+        return failure_of(self._process.wait())
 
     def kill(self) -> None:
         """End it and everything that it started, at once."""
@@ -62,6 +73,10 @@ class LocalExecutor:
     def __init__(self, settings: Settings, command: Sequence[str] = CHILD_COMMAND) -> None:
         self._settings = settings
         self._command = list(command)
+
+    def has_room(self) -> bool:
+        """Tell that another process can always be started; the supervisor's slots are the limit."""
+        return True
 
     def start(self, claim: Claim) -> LocalChild:
         """Start an attempt; what its process prints goes to the log in the run's directory."""
