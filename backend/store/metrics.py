@@ -125,9 +125,7 @@ def _stored_names(conn: Connection, claim: Claim, points: Sequence[MetricPoint])
     return stored
 
 
-def _insert_point(
-    conn: Connection, claim: Claim, point: MetricPoint, stored: dict[int, tuple[int, set[str]]]
-) -> None:
+def _insert_point(conn: Connection, claim: Claim, point: MetricPoint, stored: dict[int, tuple[int, set[str]]]) -> None:
     if point.step.cycle not in stored:
         stored[point.step.cycle] = (_insert_step(conn, claim, point.step), set())
     step_id, names = stored[point.step.cycle]

@@ -13,7 +13,7 @@ from backend.store.errors import NotFound
 from backend.store.tables import viewer_hosts, workers
 from backend.store.viewer_sessions import (
     beat_host,
-    end_sessions_of_other_hosts,
+    end_orphaned_sessions,
     get_session,
     is_host_alive,
     list_open,
@@ -109,14 +109,49 @@ def test_an_ended_session_does_not_become_ready(db: Database) -> None:
     assert get_session(db, session_id).state == "failed"
 
 
-def test_a_new_host_ends_what_a_dead_one_left(db: Database) -> None:
-    run_id = queued_run(db)
-    left, fresh = request_session(db, run_id), request_session(db, run_id)
-    next_requested(db, "dead")
+def taken_by(db: Database, host_id: str) -> str:
+    asked = request_session(db, queued_run(db))
+    next_requested(db, host_id)
+    return asked.id
 
-    assert end_sessions_of_other_hosts(db, "new", "The viewer was restarted.") == 1
-    assert get_session(db, left.id).state == "ended"
-    assert get_session(db, fresh.id).state == "starting"
+
+def orphans_end(db: Database, running: set[int]) -> None:
+    end_orphaned_sessions(db, "mine", "here", running.__contains__, "The viewer was restarted.")
+
+
+def test_the_sessions_of_a_viewer_host_whose_process_is_gone_end(db: Database) -> None:
+    beat_host(db, "mine", 10, "here")
+    beat_host(db, "dead", 11, "here")
+    left = taken_by(db, "dead")
+    fresh = request_session(db, queued_run(db)).id
+
+    orphans_end(db, running=set())
+
+    assert get_session(db, left).state == "ended"
+    assert get_session(db, left).message == "The viewer was restarted."
+    assert get_session(db, fresh).state == "starting"
+
+
+def test_the_sessions_of_living_viewer_hosts_stay(db: Database) -> None:
+    beat_host(db, "mine", 10, "here")
+    beat_host(db, "neighbour", 11, "here")
+    beat_host(db, "elsewhere", 12, "there")
+    sessions = [taken_by(db, host_id) for host_id in ("mine", "neighbour", "elsewhere")]
+
+    orphans_end(db, running={11})
+
+    assert [get_session(db, session).state for session in sessions] == ["starting"] * 3
+
+
+def test_the_sessions_of_a_viewer_host_that_fell_silent_elsewhere_end(db: Database) -> None:
+    beat_host(db, "elsewhere", 12, "there")
+    age(db, viewer_hosts, 60.0)
+    beat_host(db, "mine", 10, "here")
+    left = taken_by(db, "elsewhere")
+
+    orphans_end(db, running={12})
+
+    assert get_session(db, left).state == "ended"
 
 
 def test_a_session_needs_a_run(db: Database) -> None:
