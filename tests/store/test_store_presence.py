@@ -10,6 +10,7 @@ from store_cases import claim_next, queued_run
 
 from backend.store.database import Database, current_time
 from backend.store.errors import NotFound
+from backend.store.queue import claim
 from backend.store.tables import viewer_hosts, workers
 from backend.store.viewer_sessions import (
     beat_host,
@@ -22,7 +23,7 @@ from backend.store.viewer_sessions import (
     next_requested,
     request_session,
 )
-from backend.store.workers import ALIVE_S, beat, list_workers, register_worker, retire
+from backend.store.workers import ALIVE_S, Machine, beat, list_workers, register_worker, retire, set_draining
 
 
 def age(db: Database, table, seconds: float) -> None:
@@ -157,3 +158,37 @@ def test_the_sessions_of_a_viewer_host_that_fell_silent_elsewhere_end(db: Databa
 def test_a_session_needs_a_run(db: Database) -> None:
     with pytest.raises(NotFound, match="no run 'nobody'"):
         request_session(db, "nobody")
+
+
+def test_a_worker_shows_what_it_has_and_what_it_runs(db: Database) -> None:
+    machine = Machine(cores=16, gpu="H200", memory_total=128, executor="ray")
+    worker_id = register_worker(db, "here", 123, 4, machine)
+    claims = [(queued_run(db), claim_next(db, worker_id))[1] for _ in range(2)]
+    beat(db, worker_id, memory_used=64)
+
+    (worker,) = list_workers(db)
+
+    assert (worker.cores, worker.gpu, worker.executor) == (16, "H200", "ray")
+    assert (worker.memory_total, worker.memory_used) == (128, 64)
+    assert worker.running == tuple(claim.run_id for claim in claims)
+    assert worker.busy == 2
+
+
+def test_a_draining_worker_takes_nothing_until_it_is_let(db: Database) -> None:
+    draining, other = (register_worker(db, "here", pid, 1) for pid in (1, 2))
+    set_draining(db, draining, True)
+    first, second = queued_run(db), queued_run(db)
+
+    assert claim(db, draining) is None
+    assert claim_next(db, other).run_id == first
+    assert [worker.draining for worker in list_workers(db)] == [True, False]
+    set_draining(db, draining, False)
+    assert claim_next(db, draining).run_id == second
+
+
+def test_a_worker_that_has_ended_cannot_drain(db: Database) -> None:
+    worker_id = register_worker(db, "here", 1, 1)
+    retire(db, worker_id)
+
+    with pytest.raises(NotFound, match=f"no worker '{worker_id}'"):
+        set_draining(db, worker_id, True)
