@@ -58,6 +58,9 @@ def train(config: TrainConfig, recorder: StoreRecorder, locomotion_models: Seque
             return count(recorder, LAST_CYCLE[behaviour])
         case "is-deaf":
             time.sleep(3600.0)
+        case "hangs-once" if not (recorder.directory / "hung").exists():
+            (recorder.directory / "hung").touch()
+            time.sleep(3600.0)
         case "diverges":
             raise TrainingDiverged("Metric critic/task/loss became nan; lower the learning rate.")
         case "breaks":
