@@ -18,7 +18,7 @@ def test_a_model_below_the_gate_is_taken_only_when_the_gate_is_waived(tmp_path: 
     config = make_config("ShortPush", "manipulation", "her-sldr", 0, "smoke", {**TINY, "sldr": {"gate": 0.98}})
     before = config_hash(config)
 
-    with pytest.raises(LocomotionMissing, match="below the gate of 98.0%"):
+    with pytest.raises(LocomotionMissing, match=r"below the gate of 98\.0%"):
         train(config, DirectoryRecorder(tmp_path / "run"), (model,))
     result = train(config, DirectoryRecorder(tmp_path / "run"), (model,), gate_waived=True)
 
