@@ -12,6 +12,7 @@ from backend.store.errors import StoreUnavailable
 from backend.store.settings import load_settings
 from sldr_core.errors import SldrError
 from worker.executors.local import LocalExecutor
+from worker.machine import describe_machine, find_gpus
 from worker.supervisor import Supervisor
 
 
@@ -24,7 +25,9 @@ def main() -> int:
     settings = load_settings()
     try:
         db = open_database(settings)
-        supervisor = Supervisor(db, LocalExecutor(settings), slots)
+        gpus = find_gpus()
+        executor = LocalExecutor(settings, gpus=gpus)
+        supervisor = Supervisor(db, executor, slots, machine=describe_machine(gpus))
     except (SldrError, StoreUnavailable) as err:
         print(err, file=sys.stderr)
         return 2

@@ -49,7 +49,7 @@ def count(recorder: StoreRecorder, last_cycle: int) -> Result:
     return Result()
 
 
-def train(config: TrainConfig, recorder: StoreRecorder, locomotion_models: Sequence[Path]) -> Result:
+def train(config: TrainConfig, recorder: StoreRecorder, locomotion_models: Sequence[Path], gate_waived: bool) -> Result:
     behaviour = sys.argv[1]
     if behaviour not in LAST_CYCLE:
         recorder.log(step(1), {"test/success_rate": 0.25})
@@ -57,6 +57,9 @@ def train(config: TrainConfig, recorder: StoreRecorder, locomotion_models: Seque
         case "counts" | "lasts":
             return count(recorder, LAST_CYCLE[behaviour])
         case "is-deaf":
+            time.sleep(3600.0)
+        case "hangs-once" if not (recorder.directory / "hung").exists():
+            (recorder.directory / "hung").touch()
             time.sleep(3600.0)
         case "diverges":
             raise TrainingDiverged("Metric critic/task/loss became nan; lower the learning rate.")
