@@ -293,7 +293,7 @@ def test_a_model_that_is_gone_is_named(db: Database, settings: Settings, locomot
     dependent = next_claim(db, locomotion_claim)
     path.unlink()
 
-    with pytest.raises(LocomotionMissing, match=f"{path} is gone"):
+    with pytest.raises(LocomotionMissing, match=f"of run {locomotion_claim.run_id} is not there .{path} is gone"):
         find_locomotion_models(db, settings, dependent)
 
 
