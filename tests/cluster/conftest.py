@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import shutil
 import subprocess
 import sys
@@ -46,14 +45,9 @@ def cluster() -> Iterator[Cluster]:
             stderr=log,
             text=True,
         )
-        assert process.stdin is not None
-        assert process.stdout is not None
-        line = process.stdout.readline()
-        assert line, (home / "cluster.log").read_text()
-        yield Cluster(home, process, **json.loads(line))
-        process.stdin.close()
-        process.wait(timeout=60)
-        process.stdout.close()
+        cluster = Cluster(home, process)
+        yield cluster
+        cluster.end()
     shutil.rmtree(home)
 
 

@@ -6,7 +6,7 @@ import os
 import signal
 
 import pytest
-from cluster_cases import Behave, begin, is_running, wait_for_cycles, wait_for_end, wait_until
+from cluster_cases import Behave, begin, is_running, process_of, wait_for_cycles, wait_for_end, wait_until
 
 from backend.store.database import Database
 from backend.store.metrics import read_metrics
@@ -21,13 +21,6 @@ STATE_AFTER: dict[StopWord, RunState] = {
     "pause": RunState.PAUSED,
     "shutdown": RunState.QUEUED,
 }
-
-
-def process_of(settings: Settings, run_id: str) -> int:
-    """Return the process that said in the run's log that it begins."""
-    log = (settings.run_directory(run_id) / "log.txt").read_text()
-    begun = [line for line in log.splitlines() if "begins in process" in line]
-    return int(begun[-1].rstrip(".").split()[-1])
 
 
 def test_an_attempt_comes_to_its_end(db: Database, behave: Behave) -> None:

@@ -140,7 +140,7 @@ class RayChild:
             self._end(-signal.SIGKILL, failure_of(-signal.SIGKILL))
             return
         where = f"on {self._placement.host}" if self._placement else "before it was placed"
-        log.warning("Run %s: lost %s: %s", self._run_id, where, err)
+        log.warning("Run %s: lost %s: %s", self._run_id, where, " ".join(str(err).split()))
         self._end(EXIT_LOST, Lost(f"{_loss(err)} {where}."))
 
     def _end(self, status: int, outcome: Outcome) -> None:
