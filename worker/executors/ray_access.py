@@ -59,7 +59,7 @@ def connect(address: str, home: Path) -> None:
     require_ray()
     host, port = split_address(address)
     os.environ.update(cluster_environment(home, host))
-    _find_token()
+    find_token()
     _check_listening(host, port)
     _check_guarded(address)
     import ray  # Reads the environment when imported.
@@ -100,6 +100,21 @@ def make_token(home: Path) -> None:
         file.write(secrets.token_hex(TOKEN_BYTES))
 
 
+def find_token() -> None:
+    """Make sure that there is a token to show, once the environment is that of the cluster.
+
+    Raises:
+        ClusterUnavailable: there is none.
+    """
+    if os.environ.get("RAY_AUTH_TOKEN"):
+        return
+    path = Path(os.environ["RAY_AUTH_TOKEN_PATH"])
+    if not path.is_file():
+        raise ClusterUnavailable(
+            f"There is no token in {path}; copy {TOKEN_FILE} there from the data directory of the cluster's head."
+        )
+
+
 def split_address(address: str) -> tuple[str, int]:
     """Return host and port of `host:port`.
 
@@ -118,17 +133,6 @@ def is_loopback(host: str) -> bool:
         return ipaddress.ip_address(host).is_loopback
     except ValueError:
         return host == "localhost"
-
-
-def _find_token() -> None:
-    """Raise a sentence if there is no token to show."""
-    if os.environ.get("RAY_AUTH_TOKEN"):
-        return
-    path = Path(os.environ["RAY_AUTH_TOKEN_PATH"])
-    if not path.is_file():
-        raise ClusterUnavailable(
-            f"There is no token in {path}; copy {TOKEN_FILE} there from the data directory of the cluster's head."
-        )
 
 
 def _check_listening(host: str, port: int) -> None:
