@@ -6,9 +6,10 @@ import json
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 import psutil
 
@@ -77,14 +78,14 @@ def fake_command(behaviour: str) -> list[str]:
     return [sys.executable, str(FAKE_CHILD), behaviour]
 
 
-def queue_run(db: Database) -> str:
+def queue_run(db: Database, overrides: Mapping[str, Any] | None = None) -> str:
     """Queue a run that needs no other."""
-    return launch(db, LaunchOrder("FetchPush", "manipulation", "her", [0], "smoke"))[0]
+    return launch(db, LaunchOrder("FetchPush", "manipulation", "her", [0], "smoke", overrides or {}))[0]
 
 
-def begin(db: Database, executor: Executor) -> tuple[Claim, Child]:
+def begin(db: Database, executor: Executor, overrides: Mapping[str, Any] | None = None) -> tuple[Claim, Child]:
     """Queue and claim a run, and start its attempt."""
-    queue_run(db)
+    queue_run(db, overrides)
     claimed = claim(db, "worker-1")
     assert claimed is not None
     return claimed, executor.start(claimed)

@@ -23,12 +23,14 @@ STATE_AFTER: dict[StopWord, RunState] = {
 }
 
 
-def test_an_attempt_comes_to_its_end(db: Database, behave: Behave) -> None:
+def test_an_attempt_comes_to_its_end_and_leaves_a_log(db: Database, settings: Settings, behave: Behave) -> None:
     claimed, child = begin(db, behave("counts"))
 
     assert wait_for_end(child) == 0
     assert get_run(db, claimed.run_id).state is RunState.SUCCEEDED
     assert read_metrics(db, claimed.run_id).step == [1, 2, 3, 4, 5]
+    log = (settings.run_directory(claimed.run_id) / "log.txt").read_text()
+    assert f"Attempt 1 of run {claimed.run_id} begins" in log
 
 
 @pytest.mark.parametrize("word", STATE_AFTER)
@@ -60,15 +62,6 @@ def test_an_attempt_that_somebody_killed_is_worth_another(db: Database, settings
 
     assert wait_for_end(child) == -signal.SIGKILL
     assert child.outcome() == Failed("Its process was killed by SIGKILL (the machine may be out of memory).", True)
-
-
-def test_an_attempt_prints_to_the_log_of_its_run(db: Database, settings: Settings, behave: Behave) -> None:
-    claimed, child = begin(db, behave("counts"))
-    wait_for_end(child)
-
-    assert (
-        f"Attempt 1 of run {claimed.run_id} begins" in (settings.run_directory(claimed.run_id) / "log.txt").read_text()
-    )
 
 
 def test_there_is_room_again_after_an_attempt(db: Database, behave: Behave) -> None:
