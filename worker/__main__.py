@@ -7,13 +7,13 @@ import logging
 import signal
 import sys
 
-from backend.store.database import open_database
+from backend.store.database import Database, open_database
 from backend.store.errors import StoreUnavailable
 from backend.store.settings import Settings, load_settings
 from sldr_core.errors import InvalidConfig, SldrError
-from worker.executors import Executor
 from worker.executors.local import LocalExecutor
 from worker.executors.ray_needs import CORES_OF_A_RUN
+from worker.machine import describe_machine, find_gpus
 from worker.supervisor import Supervisor
 
 
@@ -24,8 +24,8 @@ def main() -> int:
     settings = load_settings()
     try:
         db = open_database(settings)
-        executor, slots = _make_executor(options, settings)
-        supervisor = Supervisor(db, executor, slots)
+        make = {"local": _work_here, "ray": _work_on_cluster}[options.executor]
+        supervisor = make(options, db, settings)
     except (SldrError, StoreUnavailable) as err:
         print(err, file=sys.stderr)
         return 2
@@ -49,10 +49,13 @@ def _parse() -> argparse.Namespace:
     return parser.parse_args()
 
 
-def _make_executor(options: argparse.Namespace, settings: Settings) -> tuple[Executor, int]:
-    """Return what starts attempts, and how many it may hold at once."""
-    if options.executor == "local":
-        return LocalExecutor(settings), 1 if options.slots is None else options.slots
+def _work_here(options: argparse.Namespace, db: Database, settings: Settings) -> Supervisor:
+    gpus = find_gpus()
+    executor = LocalExecutor(settings, gpus=gpus)
+    return Supervisor(db, executor, 1 if options.slots is None else options.slots, machine=describe_machine(gpus))
+
+
+def _work_on_cluster(options: argparse.Namespace, db: Database, settings: Settings) -> Supervisor:
     if options.address is None:
         raise InvalidConfig({"address": "name the cluster's head as host:port; `sldr node --head` prints it"})
     from worker.executors import ray_access  # Ray is an extra, and slow to import.
@@ -61,7 +64,8 @@ def _make_executor(options: argparse.Namespace, settings: Settings) -> tuple[Exe
     from worker.executors.ray import RayExecutor
 
     executor = RayExecutor(settings, options.cores)
-    return executor, executor.count_slots() if options.slots is None else options.slots
+    slots = executor.count_slots() if options.slots is None else options.slots
+    return Supervisor(db, executor, slots, machine=executor.describe())
 
 
 if __name__ == "__main__":

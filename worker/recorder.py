@@ -12,14 +12,16 @@ from typing import Protocol
 
 from backend.store.claims import Claim
 from backend.store.database import Database
-from backend.store.errors import StaleFence, StoreUnavailable
+from backend.store.errors import StaleFence
 from backend.store.files import register_file
 from backend.store.metrics import MetricPoint, read_metrics
+from backend.store.outcomes import CHECKPOINT_KIND
 from backend.store.progress import Progress, find_progress
 from backend.store.settings import Settings
 from sldr_core.errors import TrainingDiverged
 from sldr_core.records import Step
 from worker.metric_writer import MetricWriter
+from worker.patience import insist
 from worker.words import StopWord
 
 Curves = Mapping[str, Sequence[float | None]]
@@ -100,13 +102,18 @@ class StoreRecorder:
         from sldr_core.training import write_atomically
 
         self._writer.check()
+        if kind == CHECKPOINT_KIND:
+            # Another attempt goes on after the checkpoint, so what was logged before it must not be lost with this one.
+            self._writer.flush()
         path = write_atomically(self._directory / name, write)
         size, digest = path.stat().st_size, checksum(path)
-        register_file(self._db, self._claim, name, kind, str(path.relative_to(self._home)), size, digest)
+        place = str(path.relative_to(self._home))
+        insist(lambda: register_file(self._db, self._claim, name, kind, place, size, digest))
+        self._writer.check()
         return path
 
     def stop_requested(self) -> StopWord | None:
-        """Return what the supervisor asked for, if anything.
+        """Return what the supervisor asked for, if anything; who asks often shows that the training goes on.
 
         Raises:
             StaleFence: the run was given to another worker.
@@ -137,14 +144,14 @@ class StoreRecorder:
         if write_curves is None:
             return
         self._curves_saved_at = time.monotonic()
-        steps, values = read_curves(self._db, self._claim.run_id)
+        steps, values = insist(lambda: read_curves(self._db, self._claim.run_id))
         if not steps:
             return
         title = f"{config.task} {config.method} {config.phase}, seed {config.seed}"
         name = f"curves-attempt-{self._claim.attempt}.rrd"
         try:
             self.save_file(name, "recording", lambda path: write_curves(path, title, steps, values))
-        except (StaleFence, StoreUnavailable):
+        except StaleFence:
             raise
         except Exception:
             # A training must not fail for a copy of what is in the store.

@@ -1,7 +1,7 @@
 """Metrics: written in batches by an attempt, read as columns with a cursor. Nothing is ever dropped.
 
 Points are keyed (run, attempt, step). A later attempt supersedes earlier ones from its first step on: the older
-points stay stored, but are read no more.
+points stay stored, and are read only when asked for.
 """
 
 from __future__ import annotations
@@ -52,7 +52,10 @@ class MetricColumns:
 
 
 def append_metrics(db: Database, claim: Claim, points: Sequence[MetricPoint]) -> None:
-    """Store points in one transaction.
+    """Store points in one transaction, and note that the attempt goes on; without points, only that.
+
+    A number that is stored already under its attempt, step and name is left alone. So a batch can be sent again when
+    nobody knows whether it arrived.
 
     Raises:
         StaleFence: the attempt is over; nothing was stored.
@@ -61,23 +64,27 @@ def append_metrics(db: Database, claim: Claim, points: Sequence[MetricPoint]) ->
         _check_finite(point)
     with db.write() as conn:
         hold_fence(conn, claim)
+        there = _stored_names(conn, claim, points)
         for point in points:
-            _insert_point(conn, claim, point)
+            _insert_point(conn, claim, point, there)
 
 
-def read_metrics(db: Database, run_id: str, after: int = 0, names: Sequence[str] | None = None) -> MetricColumns:
+def read_metrics(
+    db: Database, run_id: str, after: int = 0, names: Sequence[str] | None = None, superseded: bool = False
+) -> MetricColumns:
     """Return the points logged since the cursor `after`, oldest first, at most `READ_LIMIT` of them.
 
     Args:
         names: the metrics wanted; all if None.
+        superseded: whether to return also the points that a later attempt has replaced; a point is one of them if
+            a later attempt has logged its step or an earlier one.
     """
     with db.read() as conn:
-        steps = conn.execute(
-            select(metric_steps)
-            .where(metric_steps.c.run_id == run_id, metric_steps.c.id > after, *_not_superseded(conn, run_id))
-            .order_by(metric_steps.c.id)
-            .limit(READ_LIMIT)
-        ).all()
+        there = [metric_steps.c.run_id == run_id, metric_steps.c.id > after]
+        if not superseded:
+            there += _not_superseded(conn, run_id)
+        query = select(metric_steps).where(*there).order_by(metric_steps.c.id).limit(READ_LIMIT)
+        steps = conn.execute(query).all()
         if not steps:
             return MetricColumns(cursor=after)
         wanted = [
@@ -99,8 +106,40 @@ def _check_finite(point: MetricPoint) -> None:
             raise ValueError(f"metric {name} is {value} at cycle {point.step.cycle}; only finite numbers are stored")
 
 
-def _insert_point(conn: Connection, claim: Claim, point: MetricPoint) -> None:
-    step = point.step
+def _stored_names(conn: Connection, claim: Claim, points: Sequence[MetricPoint]) -> dict[int, tuple[int, set[str]]]:
+    """Return, for each step that the attempt has logged already, its id and the names under which it did."""
+    if not points:
+        return {}
+    query = (
+        select(metric_steps.c.step, metric_steps.c.id, metric_values.c.name)
+        .outerjoin(metric_values, metric_values.c.step_id == metric_steps.c.id)
+        .where(
+            metric_steps.c.run_id == claim.run_id,
+            metric_steps.c.attempt == claim.attempt,
+            metric_steps.c.step >= min(point.step.cycle for point in points),
+        )
+    )
+    stored: dict[int, tuple[int, set[str]]] = {}
+    for row in conn.execute(query):
+        stored.setdefault(row.step, (row.id, set()))[1].add(row.name)
+    return stored
+
+
+def _insert_point(conn: Connection, claim: Claim, point: MetricPoint, stored: dict[int, tuple[int, set[str]]]) -> None:
+    if point.step.cycle not in stored:
+        stored[point.step.cycle] = (_insert_step(conn, claim, point.step), set())
+    step_id, names = stored[point.step.cycle]
+    values = [
+        {"step_id": step_id, "name": name, "value": float(value)}
+        for name, value in point.values.items()
+        if name not in names
+    ]
+    if values:
+        conn.execute(insert(metric_values), values)
+        names.update(point.values)
+
+
+def _insert_step(conn: Connection, claim: Claim, step: Step) -> int:
     row = insert(metric_steps).values(
         run_id=claim.run_id,
         attempt=claim.attempt,
@@ -111,10 +150,7 @@ def _insert_point(conn: Connection, claim: Claim, point: MetricPoint) -> None:
         updates=step.updates,
         wall_seconds=step.wall_seconds,
     )
-    step_id = conn.execute(row.returning(metric_steps.c.id)).scalar_one()
-    values = [{"step_id": step_id, "name": name, "value": float(value)} for name, value in point.values.items()]
-    if values:
-        conn.execute(insert(metric_values), values)
+    return conn.execute(row.returning(metric_steps.c.id)).scalar_one()
 
 
 def _not_superseded(conn: Connection, run_id: str) -> list[ColumnElement[bool]]:

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import socket
 import subprocess
 import sys
+from dataclasses import replace
+from importlib.metadata import version
 from pathlib import Path
 
 import pytest
 
+from backend.store.workers import Machine
 from sldr_core.config import ComputeConfig
+from worker.executors.attempt_host import NodeUnfit, Terms, check_node
 from worker.executors.cores import HeldCores
-from worker.executors.ray_needs import Needs, alive_resources, count_slots, needs_of
+from worker.executors.ray_needs import Needs, alive_resources, count_slots, describe_nodes, needs_of
 from worker.executors.shared_home import is_same_home, mark_home
 
 GPU_FREE = {"CPU": 8.0, "GPU": 1.0}
@@ -46,6 +51,27 @@ def test_slots_are_counted_per_living_node() -> None:
     ]
 
     assert count_slots(alive_resources(nodes), cores=2) == 1 + 2
+
+
+def test_a_cluster_is_described_by_what_its_nodes_have_together() -> None:
+    assert describe_nodes([GPU_FREE, NO_GPU]) == Machine(cores=16, gpu="1 on the cluster", executor="ray")
+    assert describe_nodes([NO_GPU]).gpu is None
+
+
+@pytest.mark.parametrize(
+    ("terms", "reason"),
+    [
+        ({"version": "0.0.1"}, "has sldr .* and its worker 0.0.1; install the same on both"),
+        ({"only_host": "elsewhere"}, "cannot reach the store, which is a file on elsewhere; .* needs PostgreSQL"),
+        ({"home_mark": "another"}, "does not see the data directory .* of its worker; share it"),
+    ],
+)
+def test_a_node_that_cannot_run_attempts_says_why(terms: dict[str, str], reason: str, tmp_path: Path) -> None:
+    good = Terms({}, socket.gethostname(), mark_home(tmp_path), version("sldr"), None)
+    check_node(good, tmp_path)
+
+    with pytest.raises(NodeUnfit, match=f"Node {socket.gethostname()} {reason}"):
+        check_node(replace(good, **terms), tmp_path)
 
 
 def test_two_holders_share_no_core(tmp_path: Path) -> None:

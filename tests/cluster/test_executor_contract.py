@@ -10,7 +10,7 @@ from cluster_cases import Behave, begin, is_running, process_of, wait_for_cycles
 
 from backend.store.database import Database
 from backend.store.metrics import read_metrics
-from backend.store.queue import Failed
+from backend.store.outcomes import Lost
 from backend.store.runs import get_run
 from backend.store.settings import Settings
 from backend.store.states import RunState
@@ -61,7 +61,7 @@ def test_an_attempt_that_somebody_killed_is_worth_another(db: Database, settings
     os.kill(process_of(settings, claimed.run_id), signal.SIGKILL)
 
     assert wait_for_end(child) == -signal.SIGKILL
-    assert child.outcome() == Failed("Its process was killed by SIGKILL (the machine may be out of memory).", True)
+    assert child.outcome() == Lost("Its process was killed by SIGKILL (the machine may be out of memory).")
 
 
 def test_there_is_room_again_after_an_attempt(db: Database, behave: Behave) -> None:

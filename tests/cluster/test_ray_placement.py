@@ -10,7 +10,7 @@ import pytest
 from cluster_cases import Cluster, begin, fake_command, wait_for_cycles, wait_for_end, wait_until
 
 from backend.store.database import Database
-from backend.store.queue import HandedBack
+from backend.store.outcomes import HandedBack
 from backend.store.settings import Settings
 from worker.executors import Child
 

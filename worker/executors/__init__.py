@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Protocol
 
 from backend.store.claims import Claim
-from backend.store.queue import Outcome
+from backend.store.outcomes import Outcome
 
 
 class Child(Protocol):

@@ -7,6 +7,7 @@ import socket
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib.metadata import version
+from pathlib import Path
 
 from backend.store.claims import Claim
 from backend.store.settings import load_settings
@@ -35,6 +36,8 @@ class Terms:
 
     environment: Mapping[str, str]
     """Where store and files are, as environment variables."""
+    only_host: str | None
+    """The one machine on which attempts can run, if the store is a file there."""
     home_mark: str | None
     """What the data directory is known by, if every node has to see the very same one."""
     version: str
@@ -62,18 +65,11 @@ class AttemptHost:
         """
         os.environ.update(terms.environment)
         settings = load_settings()
-        host = socket.gethostname()
-        if (here := version("sldr")) != terms.version:
-            raise NodeUnfit(f"Node {host} has sldr {here} and its worker {terms.version}; install the same on both.")
-        if terms.home_mark is not None and not is_same_home(settings.home, terms.home_mark):
-            raise NodeUnfit(
-                f"Node {host} does not see the data directory {settings.home} of its worker; "
-                "share it between all machines under one path, or name a place for files with SLDR_FILES_URL."
-            )
+        check_node(terms, settings.home)
         if claim.config.compute.threads == 0:
             self._keep_to(cores)
         self._child = LocalExecutor(settings, terms.command or CHILD_COMMAND).start(claim)
-        return Placement(host, self._child.pid)
+        return Placement(socket.gethostname(), self._child.pid)
 
     def tell(self, message: str) -> None:
         """Pass the attempt one line."""
@@ -95,3 +91,24 @@ class AttemptHost:
         self._cores = HeldCores(os.sched_getaffinity(0), count)
         if len(self._cores.numbers) == count:
             os.sched_setaffinity(0, self._cores.numbers)
+
+
+def check_node(terms: Terms, home: Path) -> None:
+    """Make sure that attempts can run on this machine.
+
+    Raises:
+        NodeUnfit: they cannot.
+    """
+    host = socket.gethostname()
+    if (here := version("sldr")) != terms.version:
+        raise NodeUnfit(f"Node {host} has sldr {here} and its worker {terms.version}; install the same on both.")
+    if terms.only_host not in (None, host):
+        raise NodeUnfit(
+            f"Node {host} cannot reach the store, which is a file on {terms.only_host}; "
+            "a cluster of several machines needs PostgreSQL (SLDR_DATABASE_URL)."
+        )
+    if terms.home_mark is not None and not is_same_home(home, terms.home_mark):
+        raise NodeUnfit(
+            f"Node {host} does not see the data directory {home} of its worker; "
+            "share it between all machines under one path, or name a place for files with SLDR_FILES_URL."
+        )

@@ -6,6 +6,7 @@ Ray never tries an attempt again by itself: that is the queue's to decide, or tw
 from __future__ import annotations
 
 import logging
+import socket
 from collections.abc import Sequence
 from importlib.metadata import version
 
@@ -13,14 +14,17 @@ import ray
 
 from backend.store.claims import Claim
 from backend.store.settings import Settings
+from backend.store.workers import Machine
 from sldr_core.errors import InvalidConfig
 from worker.executors import Child
 from worker.executors.attempt_host import AttemptHost, Terms
 from worker.executors.ray_access import ClusterUnavailable
 from worker.executors.ray_child import RayChild, UnplacedChild
-from worker.executors.ray_needs import Resources, alive_resources, count_slots, needs_of
+from worker.executors.ray_needs import Resources, alive_resources, count_slots, describe_nodes, needs_of
 from worker.executors.shared_home import mark_home
 
+FILES_VARIABLE = "SLDR_FILES_URL"
+"""Names a place for files that every machine reaches; without it they share the data directory."""
 NO_SECOND_TRY = {"max_restarts": 0, "max_task_retries": 0}
 
 log = logging.getLogger(__name__)
@@ -39,7 +43,14 @@ class RayExecutor:
         if cores < 1:
             raise InvalidConfig({"cores": f"a run needs at least 1, got {cores}"})
         self._cores = cores
-        self._terms = Terms(settings.as_environment(), mark_home(settings.home), version("sldr"), command)
+        environment = settings.as_environment()
+        self._terms = Terms(
+            environment=environment,
+            only_host=socket.gethostname() if settings.database_url.startswith("sqlite") else None,
+            home_mark=None if FILES_VARIABLE in environment else mark_home(settings.home),
+            version=version("sldr"),
+            command=command,
+        )
         self._newest: Child | None = None
 
     def count_slots(self) -> int:
@@ -57,6 +68,10 @@ class RayExecutor:
                 "add a node with `sldr node`, or give fewer with --cores."
             )
         return slots
+
+    def describe(self) -> Machine:
+        """Return what the nodes have together, as it is now."""
+        return describe_nodes(self._nodes())
 
     def has_room(self) -> bool:
         """Tell whether a node may have room: the one started last has found its place, and enough cores are free."""

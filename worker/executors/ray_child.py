@@ -10,7 +10,7 @@ from typing import Any
 import ray
 from ray.exceptions import ActorDiedError, ActorUnavailableError, RayError, RayTaskError
 
-from backend.store.queue import Failed, HandedBack, Lost, Outcome
+from backend.store.outcomes import Failed, HandedBack, Lost, Outcome
 from worker.executors.attempt_host import NodeUnfit, Placement
 from worker.executors.endings import failure_of
 from worker.executors.ray_needs import Needs

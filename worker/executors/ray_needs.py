@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from backend.store.workers import Machine
 from sldr_core.config import ComputeConfig
 
 CORES_OF_A_RUN = 2
@@ -47,6 +48,13 @@ def needs_of(compute: ComputeConfig, cores: int, free: Resources) -> Needs:
 def alive_resources(nodes: Sequence[Mapping[str, Any]]) -> list[Resources]:
     """Return all that each living node has, used or not, from Ray's list of nodes."""
     return [node["Resources"] for node in nodes if node["Alive"]]
+
+
+def describe_nodes(nodes: Sequence[Resources]) -> Machine:
+    """Return what the nodes have together; their memory is not one."""
+    gpus = sum(int(node.get("GPU", 0.0)) for node in nodes)
+    cores = sum(int(node.get("CPU", 0.0)) for node in nodes)
+    return Machine(cores=cores, gpu=f"{gpus} on the cluster" if gpus else None, executor="ray")
 
 
 def count_slots(nodes: Sequence[Resources], cores: int) -> int:

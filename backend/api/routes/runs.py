@@ -11,7 +11,7 @@ from backend.api.answers import run_detail, run_summary
 from backend.api.dependencies import Store
 from backend.api.errors import problem_responses
 from backend.api.schemas import MetricBatch, RunDetail, RunEvent, RunEvents, RunPage
-from backend.store import files, metrics, runs
+from backend.store import actions, files, metrics, runs
 from backend.store.states import RunState
 from sldr_core.config import Phase
 
@@ -52,7 +52,7 @@ def get_run(run_id: str, store: Store) -> RunDetail:
 @router.post("/{run_id}/cancel", responses=problem_responses(403, 404, 409, 422))
 def cancel_run(run_id: str, store: Store) -> RunDetail:
     """End a run for good: at once if it waits, within seconds if it trains."""
-    runs.request_cancel(store, run_id)
+    actions.request_cancel(store, run_id)
     return get_run(run_id, store)
 
 
