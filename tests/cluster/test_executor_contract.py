@@ -8,6 +8,7 @@ import signal
 import pytest
 from cluster_cases import Behave, begin, is_running, process_of, wait_for_cycles, wait_for_end, wait_until
 
+from backend.store.actions import Action, act_on
 from backend.store.database import Database
 from backend.store.metrics import read_metrics
 from backend.store.outcomes import Lost
@@ -21,6 +22,9 @@ STATE_AFTER: dict[StopWord, RunState] = {
     "pause": RunState.PAUSED,
     "shutdown": RunState.QUEUED,
 }
+
+WISHES: dict[StopWord, Action] = {"cancel": Action.CANCEL, "pause": Action.PAUSE}
+"""What a person wants when a supervisor says these words."""
 
 
 def test_an_attempt_comes_to_its_end_and_leaves_a_log(db: Database, settings: Settings, behave: Behave) -> None:
@@ -37,6 +41,8 @@ def test_an_attempt_comes_to_its_end_and_leaves_a_log(db: Database, settings: Se
 def test_an_attempt_obeys_a_word(db: Database, behave: Behave, word: StopWord) -> None:
     claimed, child = begin(db, behave("lasts"))
     wait_for_cycles(db, claimed.run_id, child)
+    if word in WISHES:
+        act_on(db, WISHES[word], [claimed.run_id])
 
     child.tell(word)
 

@@ -15,6 +15,7 @@ import pytest
 from cluster_cases import Cluster, is_running, process_of, queue_run, wait_until
 
 from backend.store.database import Database
+from backend.store.files import list_files
 from backend.store.metrics import read_metrics
 from backend.store.runs import get_run, list_events
 from backend.store.settings import Settings
@@ -25,12 +26,18 @@ pytestmark = pytest.mark.cluster
 WORKER = Path(__file__).with_name("cluster_worker.py")
 LAST_CYCLE = 200
 """Of a child that strolls."""
+REAL_EPOCHS = 12
+"""Long enough to be killed in the middle."""
+REAL_PATIENCE_S = 240.0
+
+
+def fake_worker(cluster: Cluster, behaviour: str) -> list[str]:
+    return [sys.executable, str(WORKER), cluster.address, str(cluster.home), behaviour]
 
 
 @contextmanager
-def worker(cluster: Cluster, settings: Settings, behaviour: str) -> Generator[subprocess.Popen[bytes]]:
+def running(command: list[str], settings: Settings) -> Generator[subprocess.Popen[bytes]]:
     """Run a supervisor in a process of its own."""
-    command = [sys.executable, str(WORKER), cluster.address, str(cluster.home), behaviour]
     process = subprocess.Popen(command, env={**os.environ, **settings.as_environment()})
     try:
         yield process
@@ -46,7 +53,7 @@ def wait_for_cycle(db: Database, run_id: str, cycle: int) -> None:
 def test_a_run_goes_on_elsewhere_when_its_node_is_killed(db: Database, settings: Settings, cluster: Cluster) -> None:
     cluster.complete()
     run_id = queue_run(db)
-    with worker(cluster, settings, "strolls"):
+    with running(fake_worker(cluster, "strolls"), settings):
         wait_for_cycle(db, run_id, 20)
         lost_node = cluster.node_of(process_of(settings, run_id)).pid
         cluster.kill_node_of(process_of(settings, run_id))
@@ -64,9 +71,27 @@ def test_a_run_goes_on_elsewhere_when_its_node_is_killed(db: Database, settings:
     assert [event.detail for event in lost] == [f"The cluster lost its node on {socket.gethostname()}."]
 
 
+@pytest.mark.slow
+def test_a_real_run_goes_on_from_its_checkpoint_elsewhere(db: Database, settings: Settings, cluster: Cluster) -> None:
+    cluster.complete()
+    run_id = queue_run(db, {"loop": {"epochs": REAL_EPOCHS}})
+    command = [sys.executable, "-m", "worker", "--executor", "ray", "--address", cluster.address, "--cores", "1"]
+    with running(command, settings):
+        wait_until(lambda: "checkpoint.pt" in [file.name for file in list_files(db, run_id)], REAL_PATIENCE_S)
+        cluster.kill_node_of(process_of(settings, run_id))
+        wait_until(lambda: get_run(db, run_id).state in ENDED, REAL_PATIENCE_S)
+
+    run, columns = get_run(db, run_id), read_metrics(db, run_id)
+    assert (run.state, run.attempt) == (RunState.SUCCEEDED, 2), run.reason
+    assert columns.step == list(range(1, columns.step[-1] + 1))
+    assert columns.epoch[-1] == REAL_EPOCHS
+    assert 0 < columns.attempt.index(2) < len(columns.step)
+
+
+@pytest.mark.slow
 def test_nothing_outlives_a_worker_that_is_killed(db: Database, settings: Settings, cluster: Cluster) -> None:
     run_id = queue_run(db)
-    with worker(cluster, settings, "lasts") as process:
+    with running(fake_worker(cluster, "lasts"), settings) as process:
         wait_for_cycle(db, run_id, 1)
         process.kill()
         process.wait()
@@ -75,9 +100,10 @@ def test_nothing_outlives_a_worker_that_is_killed(db: Database, settings: Settin
     assert get_run(db, run_id).state is RunState.RUNNING
 
 
+@pytest.mark.slow
 def test_sigterm_hands_the_run_back_after_its_checkpoint(db: Database, settings: Settings, cluster: Cluster) -> None:
     run_id = queue_run(db)
-    with worker(cluster, settings, "lasts") as process:
+    with running(fake_worker(cluster, "lasts"), settings) as process:
         wait_for_cycle(db, run_id, 1)
         process.send_signal(signal.SIGTERM)
         assert process.wait(timeout=60) == 0

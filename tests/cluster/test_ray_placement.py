@@ -59,6 +59,7 @@ def test_a_third_attempt_waits_for_a_node(db: Database, settings: Settings, comp
     assert not has_room
 
 
+@pytest.mark.slow
 def test_an_attempt_that_finds_no_node_is_handed_back(
     db: Database, settings: Settings, complete: None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
