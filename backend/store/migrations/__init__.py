@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from pathlib import Path
 
 from alembic import command
@@ -11,6 +12,7 @@ from sqlalchemy import Connection
 
 def upgrade(conn: Connection) -> None:
     """Bring the tables up to date inside the caller's transaction."""
+    logging.getLogger("alembic").setLevel(logging.WARNING)  # Its notes on setting up are for nobody who serves.
     config = Config()
     config.set_main_option("script_location", str(Path(__file__).parent))
     config.set_main_option("path_separator", "os")
