@@ -138,7 +138,7 @@ class RunSummary(Strict):
 
 
 class RunPage(Strict):
-    """One page of runs, in the order asked for."""
+    """One page of runs, newest first."""
 
     runs: list[RunSummary]
     next_cursor: str | None

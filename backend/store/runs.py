@@ -13,7 +13,6 @@ from backend.store.database import Database, current_time
 from backend.store.dependents import settle_dependents
 from backend.store.errors import NotFound
 from backend.store.progress import Progress, select_progress
-from backend.store.run_order import NEWEST_FIRST, RunOrder, comes_after, sorted_by
 from backend.store.states import Event, RunState, change_state
 from backend.store.tables import AnyRow, run_events, run_needs
 from backend.store.tables import runs as run_table
@@ -65,7 +64,7 @@ class RunFilter:
 
 @dataclass(frozen=True)
 class RunRows:
-    """Hold one page of runs."""
+    """Hold one page of runs, newest first."""
 
     rows: list[RunRow]
     next_cursor: str | None
@@ -107,18 +106,16 @@ def get_runs(db: Database, run_ids: Sequence[str]) -> list[RunRow]:
     return [by_id[run_id] for run_id in run_ids if run_id in by_id]
 
 
-def list_runs(
-    db: Database, wanted: RunFilter, limit: int, cursor: str | None = None, order: RunOrder = NEWEST_FIRST
-) -> RunRows:
-    """Return one page of runs, in the order asked for.
+def list_runs(db: Database, wanted: RunFilter, limit: int, cursor: str | None = None) -> RunRows:
+    """Return one page of runs, newest first.
 
     Raises:
         InvalidConfig: the cursor did not come from an earlier page.
     """
     conditions = _conditions(wanted)
-    query = select(run_table).where(*conditions).order_by(*sorted_by(order)).limit(limit + 1)
+    query = select(run_table).where(*conditions).order_by(run_table.c.number.desc()).limit(limit + 1)
     if cursor is not None:
-        query = query.where(comes_after(order, _number(cursor)))
+        query = query.where(run_table.c.number < _number(cursor))
     with db.read() as conn:
         found = conn.execute(query).all()
         total = conn.execute(select(func.count()).select_from(run_table).where(*conditions)).scalar_one()

@@ -12,7 +12,6 @@ from backend.api.dependencies import Store
 from backend.api.errors import problem_responses
 from backend.api.schemas import MetricBatch, RunDetail, RunEvent, RunEvents, RunPage
 from backend.store import files, metrics, runs
-from backend.store.run_order import RunOrder, SortKey
 from backend.store.states import RunState
 from sldr_core.config import Phase
 
@@ -35,14 +34,12 @@ def list_runs(
     search: Annotated[
         str | None, Query(max_length=200, description="Words that id, task, method, phase, preset or state hold.")
     ] = None,
-    sort: SortKey = SortKey.LAUNCHED,
-    descending: bool = True,
     limit: Annotated[int, Query(ge=1, le=LARGEST_PAGE)] = 50,
     cursor: Annotated[str | None, Query(max_length=15, description="`next_cursor` of the page before.")] = None,
 ) -> RunPage:
-    """List runs, one page at a time; without a wish, the newest come first."""
+    """List runs, newest first, one page at a time."""
     wanted = runs.RunFilter(state=state, task=task, method=method, phase=phase, search=search)
-    found = runs.list_runs(store, wanted, limit, cursor, RunOrder(sort, descending))
+    found = runs.list_runs(store, wanted, limit, cursor)
     return RunPage(runs=[run_summary(row) for row in found.rows], next_cursor=found.next_cursor, total=found.total)
 
 
