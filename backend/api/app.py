@@ -17,7 +17,7 @@ from backend.api.errors import add_error_answers
 from backend.api.hosts import LOCAL, HostRule, OwnHost
 from backend.api.origins import SameOrigin
 from backend.api.pages import BUILT_PAGE, add_pages
-from backend.api.routes import choices, health, launches, run_files, runs, viewer_sessions, workers
+from backend.api.routes import choices, health, launches, queue, run_actions, run_files, runs, viewer_sessions, workers
 from backend.api.tokens import ViewerTokens, load_secret
 from backend.store.database import open_database
 from backend.store.settings import Settings
@@ -47,7 +47,18 @@ def create_app(settings: Settings, page: Path = BUILT_PAGE, hosts: HostRule = LO
         generate_unique_id_function=_operation_id,
         lifespan=_lifespan(settings),
     )
-    for routes in (health, choices, launches, runs, run_files, workers, viewer_sessions, viewer_proxy):
+    for routes in (
+        health,
+        choices,
+        launches,
+        run_actions,
+        runs,
+        run_files,
+        queue,
+        workers,
+        viewer_sessions,
+        viewer_proxy,
+    ):
         app.include_router(routes.router)
     add_pages(app, page)
     add_error_answers(app)

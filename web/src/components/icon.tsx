@@ -25,6 +25,13 @@ const SHAPES = {
   search: 'M11 5a6 6 0 1 0 0 12 6 6 0 0 0 0-12zM15.5 15.5L20 20',
   copy: 'M9 9h11v11H9zM5 15H4V4h11v1',
   close: 'M6 6l12 12M18 6L6 18',
+  menu: 'M6 12h.01M12 12h.01M18 12h.01',
+  retry: 'M19 12a7 7 0 1 1-2.1-5M19 4v4h-4',
+  trash: 'M4.5 7h15M9 7V4.5h6V7M6.5 7l1 12.5h9l1-12.5',
+  up: 'M6 14l6-6 6 6',
+  down: 'M6 10l6 6 6-6',
+  grip: 'M9 6h.01M15 6h.01M9 12h.01M15 12h.01M9 18h.01M15 18h.01',
+  release: 'M7 11V8a5 5 0 0 1 9.6-2M5 11h14v9H5z',
   arrow: 'M5 12h14M13 6l6 6-6 6',
 } as const;
 

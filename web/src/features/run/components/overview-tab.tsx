@@ -1,4 +1,4 @@
-/** The run's curves, live. */
+/** What differs in this run, and its curves, live. */
 import { useLocalStorage } from '@mantine/hooks';
 import { useQuery, useQueryClient } from '@tanstack/react-query';
 import { useCallback, useMemo, useState } from 'react';
@@ -17,6 +17,7 @@ import type { RunSearch } from '../search';
 import { ChartControls } from './chart-controls';
 import classes from './charts.module.css';
 import { type ChartView, MetricChart } from './metric-chart';
+import { RunDifferences } from './run-differences';
 import { WaitingPanel } from './waiting-panel';
 
 interface Props {
@@ -25,7 +26,16 @@ interface Props {
   onShow: (changes: RunSearch) => void;
 }
 
-export function OverviewTab({ run, search, onShow }: Props) {
+export function OverviewTab(props: Props) {
+  return (
+    <>
+      <RunDifferences run={props.run} />
+      <Progress {...props} />
+    </>
+  );
+}
+
+function Progress({ run, search, onShow }: Props) {
   const queries = useQueryClient();
   const { data: metrics, error } = useQuery(metricsQuery(queries, run.id, !hasEnded(run.state)));
   if (metrics === undefined) {
