@@ -21,7 +21,8 @@ from typing import IO, Protocol
 from backend.store.claims import Claim, claim_from_json
 from backend.store.database import Database, open_database
 from backend.store.errors import StaleFence
-from backend.store.queue import Cancelled, Failed, HandedBack, Outcome, Paused, Succeeded, finish
+from backend.store.outcomes import Cancelled, Failed, HandedBack, Outcome, Paused, Succeeded
+from backend.store.queue import finish
 from backend.store.settings import Settings, load_settings
 from sldr_core.config import TrainConfig
 from sldr_core.errors import SldrError

@@ -16,21 +16,8 @@ from math import inf
 from backend.store.claims import Claim
 from backend.store.database import Database
 from backend.store.errors import StaleFence, StoreUnavailable
-from backend.store.queue import (
-    HEARTBEAT_S,
-    LEASE_S,
-    RETRY_BACKOFF_S,
-    Cancelled,
-    Failed,
-    HandedBack,
-    HeartbeatReply,
-    Outcome,
-    Paused,
-    claim,
-    finish,
-    read_requests,
-    reap_expired,
-)
+from backend.store.outcomes import RETRY_BACKOFF_S, Cancelled, Failed, HandedBack, Outcome, Paused
+from backend.store.queue import HEARTBEAT_S, LEASE_S, HeartbeatReply, claim, finish, read_requests, reap_expired
 from backend.store.workers import register_worker, retire
 from sldr_core.errors import InvalidConfig
 from worker.executors.local import LocalChild, LocalExecutor

@@ -31,6 +31,8 @@ class Claim:
     """What to train."""
     locomotion_run_ids: tuple[str, ...]
     """The runs whose locomotion models give the reward."""
+    gate_waived: bool
+    """Whether a person has let it start although a locomotion model missed the gate."""
     lease_until: datetime
     """Without a heartbeat until then, the run goes to another worker."""
 
@@ -45,6 +47,7 @@ def claim_to_json(claim: Claim) -> str:
             "worker_id": claim.worker_id,
             "config": config_to_dict(claim.config),
             "locomotion_run_ids": claim.locomotion_run_ids,
+            "gate_waived": claim.gate_waived,
             "lease_until": claim.lease_until.isoformat(),
         }
     )
@@ -60,6 +63,7 @@ def claim_from_json(line: str) -> Claim:
         worker_id=values["worker_id"],
         config=config_from_dict(values["config"]),
         locomotion_run_ids=tuple(values["locomotion_run_ids"]),
+        gate_waived=values.get("gate_waived", False),  # a worker from before an upgrade does not say
         lease_until=datetime.fromisoformat(values["lease_until"]),
     )
 

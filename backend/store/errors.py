@@ -1,8 +1,9 @@
 """The errors of the store.
 
 SldrError
-├── NotFound             there is no such run, file or session
-└── WrongState           a run cannot do this in the state it is in
+├── NotFound             there is no such run, worker, file or session
+├── WrongState           a run cannot do this in the state it is in
+└── Refused              something else than its state keeps a run from doing this
 Exception
 ├── StaleFence           an attempt that was replaced tried to write
 └── StoreUnavailable     the database cannot be reached, is locked or full; the same call may work later
@@ -33,6 +34,10 @@ class WrongState(SldrError):
         self.run_id = run_id
         self.state = state
         self.event = event
+
+
+class Refused(SldrError):
+    """Report what keeps a run from doing what was asked; the message says it."""
 
 
 class StaleFence(Exception):

@@ -12,6 +12,7 @@ from sqlalchemy import Connection, insert, select
 
 from backend.store.database import Database, current_time
 from backend.store.dependents import why_blocked
+from backend.store.order import last_position
 from backend.store.states import Event, RunState, append_event
 from backend.store.tables import AnyRow, run_needs, runs
 from sldr_core.config import PHASES, Phase, TrainConfig, config_hash, config_to_dict
@@ -143,7 +144,12 @@ def _find_shared(conn: Connection, digest: str) -> str | None:
     lost = (RunState.FAILED, RunState.CANCELLED)
     query = (
         select(runs.c.id)
-        .where(runs.c.config_hash == digest, runs.c.state.not_in(lost), runs.c.cancel_requested.is_(False))
+        .where(
+            runs.c.config_hash == digest,
+            runs.c.state.not_in(lost),
+            runs.c.cancel_requested.is_(False),
+            runs.c.deleted_at.is_(None),
+        )
         .order_by(runs.c.number)
         .limit(1)
     )
@@ -152,7 +158,8 @@ def _find_shared(conn: Connection, digest: str) -> str | None:
 
 def _insert_run(conn: Connection, planned: PlannedRun, needed_ids: list[str], at: datetime) -> str:
     # Locked, so that a locomotion run cannot end unseen between this look and the insert.
-    needed: Sequence[AnyRow] = conn.execute(select(runs).where(runs.c.id.in_(needed_ids)).with_for_update()).all()
+    query = select(runs).where(runs.c.id.in_(needed_ids)).order_by(runs.c.number).with_for_update()
+    needed: Sequence[AnyRow] = conn.execute(query).all()
     reason = why_blocked(needed, planned.config.sldr.gate)
     state = RunState.QUEUED if reason is None else RunState.BLOCKED
     run_id = uuid.uuid4().hex[:RUN_ID_LENGTH]
@@ -168,6 +175,8 @@ def _insert_run(conn: Connection, planned: PlannedRun, needed_ids: list[str], at
             config_hash=planned.config_hash,
             state=state,
             reason=reason,
+            needs_gpu=planned.config.compute.device == "cuda",
+            queue_position=last_position(conn),
             created_at=at,
         )
     )

@@ -1,7 +1,7 @@
 """Metrics: written in batches by an attempt, read as columns with a cursor. Nothing is ever dropped.
 
 Points are keyed (run, attempt, step). A later attempt supersedes earlier ones from its first step on: the older
-points stay stored, but are read no more.
+points stay stored, and are read only when asked for.
 """
 
 from __future__ import annotations
@@ -65,19 +65,22 @@ def append_metrics(db: Database, claim: Claim, points: Sequence[MetricPoint]) ->
             _insert_point(conn, claim, point)
 
 
-def read_metrics(db: Database, run_id: str, after: int = 0, names: Sequence[str] | None = None) -> MetricColumns:
+def read_metrics(
+    db: Database, run_id: str, after: int = 0, names: Sequence[str] | None = None, superseded: bool = False
+) -> MetricColumns:
     """Return the points logged since the cursor `after`, oldest first, at most `READ_LIMIT` of them.
 
     Args:
         names: the metrics wanted; all if None.
+        superseded: whether to return also the points that a later attempt has replaced; a point is one of them if
+            a later attempt has logged its step or an earlier one.
     """
     with db.read() as conn:
-        steps = conn.execute(
-            select(metric_steps)
-            .where(metric_steps.c.run_id == run_id, metric_steps.c.id > after, *_not_superseded(conn, run_id))
-            .order_by(metric_steps.c.id)
-            .limit(READ_LIMIT)
-        ).all()
+        there = [metric_steps.c.run_id == run_id, metric_steps.c.id > after]
+        if not superseded:
+            there += _not_superseded(conn, run_id)
+        query = select(metric_steps).where(*there).order_by(metric_steps.c.id).limit(READ_LIMIT)
+        steps = conn.execute(query).all()
         if not steps:
             return MetricColumns(cursor=after)
         wanted = [

@@ -6,14 +6,15 @@ from dataclasses import dataclass
 from datetime import datetime, timedelta
 from typing import Any
 
-from sqlalchemy import Connection, func, insert, or_, select, update
+from sqlalchemy import Connection, exists, func, insert, or_, select, update
 
 from backend.store.claims import Claim
 from backend.store.database import Database, current_time
-from backend.store.dependents import settle_dependents
 from backend.store.errors import StaleFence
-from backend.store.states import Event, RunState, change_state, try_change_state
-from backend.store.tables import AnyRow, attempts, run_needs, runs
+from backend.store.order import CLAIM_ORDER
+from backend.store.outcomes import RETRY_BACKOFF_S, Failed, Outcome, end_attempt, lose_attempt
+from backend.store.states import Event, RunState, try_change_state
+from backend.store.tables import AnyRow, attempts, run_needs, runs, workers
 from sldr_core.config import config_from_dict
 from sldr_core.errors import InvalidConfig
 
@@ -21,10 +22,6 @@ LEASE_S = 60.0
 """A run goes to another worker after this long without a heartbeat [s]."""
 HEARTBEAT_S = 10.0
 """How often a worker renews its leases [s]."""
-MAX_ATTEMPTS = 3
-"""Attempts that may fail or get lost before the run fails; handed back and paused ones do not count."""
-RETRY_BACKOFF_S = 2.0
-"""Wait before the first retry, doubled for each further one [s]."""
 
 
 @dataclass(frozen=True)
@@ -37,84 +34,40 @@ class HeartbeatReply:
     """Whether a person wants the run to end."""
     pause: bool
     """Whether a person wants the run to checkpoint and wait."""
+    idle_s: float = 0.0
+    """How long its trainer has shown no progress [s]."""
 
 
-@dataclass(frozen=True)
-class Succeeded:
-    """The training came to its end."""
+def claim(db: Database, worker_id: str, lease_s: float = LEASE_S, with_gpu: bool = True) -> Claim | None:
+    """Take the first queued run, or return None if there is nothing to do, or if the worker is draining.
 
-    success_rate: float | None
-    """Success of the last test; it decides whether dependents may start."""
-
-
-@dataclass(frozen=True)
-class Failed:
-    """The attempt ended by an error."""
-
-    reason: str
-    """Why, in one sentence."""
-    retry: bool
-    """Whether another attempt could do better."""
-
-
-@dataclass(frozen=True)
-class Cancelled:
-    """The training ended because a person wished so."""
-
-
-@dataclass(frozen=True)
-class Paused:
-    """The training is checkpointed and waits for a person."""
-
-
-@dataclass(frozen=True)
-class HandedBack:
-    """The worker gives the run back unharmed; any worker may go on with it."""
-
-    reason: str
-    """Why, in one sentence."""
-    delay_s: float = 0.0
-    """How long no worker should take it [s]."""
-
-
-Outcome = Succeeded | Failed | Cancelled | Paused | HandedBack
-"""How an attempt ended."""
-
-
-def claim(db: Database, worker_id: str, lease_s: float = LEASE_S) -> Claim | None:
-    """Take the oldest queued run, or return None if there is nothing to do."""
+    Args:
+        with_gpu: whether runs that ask for a GPU may be taken as well.
+    """
     with db.write() as conn:
-        while (row := _take_next(conn, worker_id, lease_s)) is not None:
+        while (row := _take_next(conn, worker_id, lease_s, with_gpu)) is not None:
             try:
                 return _claim(conn, row)
             except InvalidConfig as err:
                 reason = f"Its settings do not fit this version; launch it again ({err})."
-                _end(conn, row, Event.FAILED, current_time(conn), reason)
+                end_attempt(conn, row, Failed(reason, retry=False), current_time(conn), RETRY_BACKOFF_S)
     return None
 
 
-def heartbeat(
-    db: Database, claim: Claim, progress_at: datetime | None = None, lease_s: float = LEASE_S
-) -> HeartbeatReply:
-    """Renew the lease of an attempt and return what is wanted of it.
-
-    Args:
-        progress_at: when the trainer last showed progress, if the caller knows.
-    """
+def heartbeat(db: Database, claim: Claim, lease_s: float = LEASE_S) -> HeartbeatReply:
+    """Renew the lease of an attempt and return what is wanted of it."""
     with db.write() as conn:
-        changes: dict[str, Any] = {"lease_until": current_time(conn) + timedelta(seconds=lease_s)}
-        if progress_at is not None:
-            changes["progress_at"] = progress_at
-        renew = update(runs).where(*_owned_by(claim)).values(changes)
-        row = conn.execute(renew.returning(runs.c.cancel_requested, runs.c.pause_requested)).one_or_none()
-    return _reply(row)
+        at = current_time(conn)
+        renew = update(runs).where(*_owned_by(claim)).values(lease_until=at + timedelta(seconds=lease_s))
+        row = conn.execute(renew.returning(*_ANSWER)).one_or_none()
+    return _reply(row, at)
 
 
 def read_requests(db: Database, claim: Claim) -> HeartbeatReply:
     """Return what is wanted of an attempt without renewing its lease."""
     with db.read() as conn:
-        query = select(runs.c.cancel_requested, runs.c.pause_requested).where(*_owned_by(claim))
-        return _reply(conn.execute(query).one_or_none())
+        row = conn.execute(select(*_ANSWER).where(*_owned_by(claim))).one_or_none()
+        return _reply(row, current_time(conn))
 
 
 def finish(db: Database, claim: Claim, outcome: Outcome, backoff_s: float = RETRY_BACKOFF_S) -> None:
@@ -128,7 +81,7 @@ def finish(db: Database, claim: Claim, outcome: Outcome, backoff_s: float = RETR
         row = conn.execute(select(runs).where(*_owned_by(claim)).with_for_update()).one_or_none()
         if row is None:
             raise StaleFence(claim.run_id, claim.fence)
-        _finish(conn, row, outcome, at, backoff_s)
+        end_attempt(conn, row, outcome, at, backoff_s)
 
 
 def reap_expired(db: Database, backoff_s: float = RETRY_BACKOFF_S) -> list[str]:
@@ -138,19 +91,23 @@ def reap_expired(db: Database, backoff_s: float = RETRY_BACKOFF_S) -> list[str]:
         query = select(runs).where(runs.c.state == RunState.RUNNING, runs.c.lease_until < at)
         expired = conn.execute(query.with_for_update(skip_locked=True)).all()
         for row in expired:
-            reason = f"Its worker {row.worker_id} gave no sign of life."
-            _retry(conn, row, Event.LOST, reason, at, backoff_s)
+            lose_attempt(conn, row, at, backoff_s)
     return [row.id for row in expired]
 
 
-def _take_next(conn: Connection, worker_id: str, lease_s: float) -> AnyRow | None:
+def _take_next(conn: Connection, worker_id: str, lease_s: float, with_gpu: bool) -> AnyRow | None:
     at = current_time(conn)
-    oldest = (
+    draining = exists().where(workers.c.id == worker_id, workers.c.draining)
+    due = [runs.c.state == RunState.QUEUED, runs.c.deleted_at.is_(None), ~draining]
+    due.append(or_(runs.c.not_before.is_(None), runs.c.not_before <= at))
+    if not with_gpu:
+        due.append(~runs.c.needs_gpu)
+    first = (
         select(runs.c.id)
-        .where(runs.c.state == RunState.QUEUED, or_(runs.c.not_before.is_(None), runs.c.not_before <= at))
-        .order_by(runs.c.number)
+        .where(*due)
+        .order_by(*CLAIM_ORDER)
         .limit(1)
-        .with_for_update(skip_locked=True)
+        .with_for_update(skip_locked=True, of=runs)
         .scalar_subquery()
     )
     changes = {
@@ -159,9 +116,10 @@ def _take_next(conn: Connection, worker_id: str, lease_s: float) -> AnyRow | Non
         "worker_id": worker_id,
         "lease_until": at + timedelta(seconds=lease_s),
         "not_before": None,
+        "progress_at": at,
         "started_at": func.coalesce(runs.c.started_at, at),
     }
-    row = try_change_state(conn, oldest, Event.CLAIMED, at=at, changes=changes)
+    row = try_change_state(conn, first, Event.CLAIMED, at=at, changes=changes)
     if row is not None:
         opened = {"run_id": row.id, "attempt": row.attempt, "fence": row.fence, "worker_id": worker_id}
         conn.execute(insert(attempts).values(**opened, started_at=at))
@@ -177,70 +135,21 @@ def _claim(conn: Connection, row: AnyRow) -> Claim:
         worker_id=row.worker_id,
         config=config_from_dict(row.config),
         locomotion_run_ids=tuple(conn.execute(query).scalars()),
+        gate_waived=row.gate_waived,
         lease_until=row.lease_until,
     )
-
-
-def _finish(conn: Connection, row: AnyRow, outcome: Outcome, at: datetime, backoff_s: float) -> None:
-    match outcome:
-        case Succeeded(success_rate):
-            _end(conn, row, Event.SUCCEEDED, at, None, {"success_rate": success_rate})
-        case Cancelled():
-            _end(conn, row, Event.CANCELLED, at, "Cancelled while it ran.")
-        case Failed(reason, retry=False):
-            _end(conn, row, Event.FAILED, at, reason)
-        case Failed(reason):
-            _retry(conn, row, Event.RETRIED, reason, at, backoff_s)
-        case Paused():
-            _leave(conn, row, Event.PAUSED, at, None, {})
-        case HandedBack(reason, delay_s):
-            _leave(conn, row, Event.HANDED_BACK, at, reason, {"not_before": at + timedelta(seconds=delay_s)})
-
-
-def _retry(conn: Connection, row: AnyRow, event: Event, reason: str, at: datetime, backoff_s: float) -> None:
-    failures = row.failures + 1
-    if failures >= MAX_ATTEMPTS:
-        _end(conn, row, Event.FAILED, at, f"{reason} It was tried {failures} times.", {"failures": failures})
-        return
-    not_before = at + timedelta(seconds=backoff_s * 2 ** (failures - 1))
-    _leave(conn, row, event, at, reason, {"failures": failures, "not_before": not_before})
-
-
-def _leave(
-    conn: Connection, row: AnyRow, event: Event, at: datetime, reason: str | None, changes: dict[str, Any]
-) -> None:
-    """End the attempt but not the run, unless a person wanted the run to end meanwhile."""
-    if row.cancel_requested:
-        _end(conn, row, Event.CANCELLED, at, "Cancelled while it ran.")
-        return
-    change_state(conn, row.id, event, at=at, reason=reason, fence=row.fence, changes=changes)
-    _close_attempt(conn, row, event, reason, at)
-
-
-def _end(
-    conn: Connection,
-    row: AnyRow,
-    event: Event,
-    at: datetime,
-    reason: str | None,
-    changes: dict[str, Any] | None = None,
-) -> None:
-    """End attempt and run, and let the runs that need it know."""
-    change_state(conn, row.id, event, at=at, reason=reason, fence=row.fence, changes=changes)
-    _close_attempt(conn, row, event, reason, at)
-    settle_dependents(conn, row.id, at)
-
-
-def _close_attempt(conn: Connection, row: AnyRow, outcome: Event, reason: str | None, at: datetime) -> None:
-    this = (attempts.c.run_id == row.id, attempts.c.attempt == row.attempt)
-    conn.execute(update(attempts).where(*this).values(ended_at=at, outcome=outcome, reason=reason))
 
 
 def _owned_by(claim: Claim) -> tuple[Any, ...]:
     return runs.c.id == claim.run_id, runs.c.fence == claim.fence, runs.c.state == RunState.RUNNING
 
 
-def _reply(row: AnyRow | None) -> HeartbeatReply:
+def _reply(row: AnyRow | None, at: datetime) -> HeartbeatReply:
     if row is None:
         return HeartbeatReply(alive=False, cancel=False, pause=False)
-    return HeartbeatReply(alive=True, cancel=row.cancel_requested, pause=row.pause_requested)
+    idle_s = (at - row.progress_at).total_seconds() if row.progress_at else 0.0
+    return HeartbeatReply(alive=True, cancel=row.cancel_requested, pause=row.pause_requested, idle_s=idle_s)
+
+
+_ANSWER = (runs.c.cancel_requested, runs.c.pause_requested, runs.c.progress_at)
+"""What a heartbeat is answered from."""

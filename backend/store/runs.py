@@ -1,20 +1,19 @@
-"""Reading runs, and asking one to end."""
+"""Reading runs: one, several, pages of them, and their history."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
-from typing import Any
+from typing import Any, Literal
 
-from sqlalchemy import ColumnElement, Connection, String, cast, func, or_, select
+from sqlalchemy import ColumnElement, Connection, String, and_, cast, func, or_, select
 
-from backend.store.database import Database, current_time
-from backend.store.dependents import settle_dependents
+from backend.store.database import Database
 from backend.store.errors import NotFound
 from backend.store.progress import Progress, select_progress
-from backend.store.states import Event, RunState, change_state
-from backend.store.tables import AnyRow, run_events, run_needs
+from backend.store.states import Event, RunState
+from backend.store.tables import AnyRow, run_events, run_needs, run_progress
 from backend.store.tables import runs as run_table
 from sldr_core.errors import InvalidConfig
 
@@ -37,6 +36,8 @@ class RunRow:
     """Why it waits or ended so, in one sentence."""
     needs: tuple[str, ...]
     """Ids of the locomotion runs that it takes its reward from."""
+    unmet: tuple[str, ...]
+    """Those of them that have not succeeded."""
     attempt: int
     """Claims so far."""
     progress: Progress | None
@@ -46,6 +47,23 @@ class RunRow:
     started_at: datetime | None
     ended_at: datetime | None
     cancel_requested: bool
+    """A person wants it to end, and its worker has not ended it yet."""
+    pause_requested: bool
+    """A person wants it to wait, and its worker has not paused it yet."""
+    is_below_gate: bool
+    """It is blocked by nothing but a locomotion model that missed the gate; a person can release it."""
+    gate_waived: bool
+    """A person has let it start below the gate."""
+    needs_gpu: bool
+    """Only a worker with a GPU takes it."""
+    priority: int
+    """Runs of a higher one start first."""
+    worker_id: str | None
+    """The worker that trains it."""
+    not_before: datetime | None
+    """When its next attempt may begin, if it waits after a failure."""
+    deleted_at: datetime | None
+    """When a person hid it."""
     config: dict[str, Any]
     config_hash: str
 
@@ -60,11 +78,17 @@ class RunFilter:
     phase: str | None = None
     search: str | None = None
     """Words that must all occur in task, method, phase, preset or state, or be the seed or the beginning of the id."""
+    deleted: bool = False
+    """Whether to return the runs that a person hid, instead of all others."""
+
+
+SortKey = Literal["launched", "task", "state", "success"]
+"""What a list of runs can be sorted by; `success` is that of the newest test."""
 
 
 @dataclass(frozen=True)
 class RunRows:
-    """Hold one page of runs, newest first."""
+    """Hold one page of runs."""
 
     rows: list[RunRow]
     next_cursor: str | None
@@ -92,7 +116,7 @@ def get_run(db: Database, run_id: str) -> RunRow:
         NotFound: there is no such run.
     """
     with db.read() as conn:
-        rows = _run_rows(conn, conn.execute(select(run_table).where(run_table.c.id == run_id)).all())
+        rows = run_rows(conn, conn.execute(select(run_table).where(run_table.c.id == run_id)).all())
     if not rows:
         raise NotFound("run", run_id)
     return rows[0]
@@ -101,47 +125,39 @@ def get_run(db: Database, run_id: str) -> RunRow:
 def get_runs(db: Database, run_ids: Sequence[str]) -> list[RunRow]:
     """Return several runs in the order asked for, leaving out those that do not exist."""
     with db.read() as conn:
-        rows = _run_rows(conn, conn.execute(select(run_table).where(run_table.c.id.in_(run_ids))).all())
+        rows = run_rows(conn, conn.execute(select(run_table).where(run_table.c.id.in_(run_ids))).all())
     by_id = {row.id: row for row in rows}
     return [by_id[run_id] for run_id in run_ids if run_id in by_id]
 
 
-def list_runs(db: Database, wanted: RunFilter, limit: int, cursor: str | None = None) -> RunRows:
-    """Return one page of runs, newest first.
+def list_runs(
+    db: Database,
+    wanted: RunFilter,
+    limit: int,
+    cursor: str | None = None,
+    sort: SortKey = "launched",
+    descending: bool = True,
+) -> RunRows:
+    """Return one page of runs, newest first unless another order is asked for; equals come newest first.
 
     Raises:
         InvalidConfig: the cursor did not come from an earlier page.
     """
     conditions = _conditions(wanted)
-    query = select(run_table).where(*conditions).order_by(run_table.c.number.desc()).limit(limit + 1)
-    if cursor is not None:
-        query = query.where(run_table.c.number < _number(cursor))
+    key, number = _SORT_KEYS[sort], run_table.c.number
+    listed = select(run_table).outerjoin(run_progress, run_progress.c.run_id == run_table.c.id)
+    query = listed.where(*conditions).order_by(key.desc() if descending else key.asc(), number.desc()).limit(limit + 1)
     with db.read() as conn:
+        if cursor is not None:
+            last = _number(cursor)
+            reached = conn.execute(listed.with_only_columns(key).where(number == last)).scalar_one_or_none()
+            later = key < reached if descending else key > reached
+            query = query.where(or_(later, and_(key == reached, number < last)))
         found = conn.execute(query).all()
         total = conn.execute(select(func.count()).select_from(run_table).where(*conditions)).scalar_one()
-        rows = _run_rows(conn, found[:limit])
+        rows = run_rows(conn, found[:limit])
     next_cursor = str(found[limit - 1].number) if len(found) > limit else None
     return RunRows(rows=rows, next_cursor=next_cursor, total=total)
-
-
-def request_cancel(db: Database, run_id: str) -> None:
-    """End a run: at once if no worker has it, else as soon as its worker has heard.
-
-    Raises:
-        NotFound: there is no such run.
-        WrongState: it has ended already.
-    """
-    with db.write() as conn:
-        at = current_time(conn)
-        query = select(run_table).where(run_table.c.id == run_id).with_for_update()
-        run = conn.execute(query).one_or_none()
-        if run is None:
-            raise NotFound("run", run_id)
-        if run.state != RunState.RUNNING:
-            change_state(conn, run_id, Event.CANCELLED, at=at, reason="Cancelled before it began or while it waited.")
-            settle_dependents(conn, run_id, at)
-        elif not run.cancel_requested:
-            change_state(conn, run_id, Event.CANCEL_REQUESTED, at=at, changes={"cancel_requested": True})
 
 
 def list_events(db: Database, run_id: str) -> list[EventRow]:
@@ -172,6 +188,8 @@ def _conditions(wanted: RunFilter) -> list[ColumnElement[bool]]:
     conditions: list[ColumnElement[bool]] = [
         run_table.c[name] == value for name, value in exact.items() if value is not None
     ]
+    hidden = run_table.c.deleted_at.is_not(None)
+    conditions.append(hidden if wanted.deleted else ~hidden)
     conditions.extend(_mentions(word) for word in (wanted.search or "").split())
     return conditions
 
@@ -184,17 +202,24 @@ def _mentions(word: str) -> ColumnElement[bool]:
     return or_(*matches, cast(run_table.c.seed, String) == word)
 
 
-def _run_rows(conn: Connection, rows: Sequence[AnyRow]) -> list[RunRow]:
+def run_rows(conn: Connection, rows: Sequence[AnyRow]) -> list[RunRow]:
+    """Return rows of the table as records, with what other tables know of them."""
     ids = [row.id for row in rows]
     progress = select_progress(conn, ids)
-    needs: dict[str, list[str]] = {}
-    query = select(run_needs).where(run_needs.c.run_id.in_(ids)).order_by(run_needs.c.needs_run_id)
+    needs: dict[str, list[AnyRow]] = {}
+    query = (
+        select(run_needs.c.run_id, run_needs.c.needs_run_id, run_table.c.state)
+        .join(run_table, run_table.c.id == run_needs.c.needs_run_id)
+        .where(run_needs.c.run_id.in_(ids))
+        .order_by(run_needs.c.needs_run_id)
+    )
     for edge in conn.execute(query):
-        needs.setdefault(edge.run_id, []).append(edge.needs_run_id)
-    return [_run_row(row, tuple(needs.get(row.id, ())), progress.get(row.id)) for row in rows]
+        needs.setdefault(edge.run_id, []).append(edge)
+    return [_run_row(row, needs.get(row.id, []), progress.get(row.id)) for row in rows]
 
 
-def _run_row(row: AnyRow, needs: tuple[str, ...], progress: Progress | None) -> RunRow:
+def _run_row(row: AnyRow, needs: Sequence[AnyRow], progress: Progress | None) -> RunRow:
+    unmet = tuple(edge.needs_run_id for edge in needs if edge.state != RunState.SUCCEEDED)
     return RunRow(
         id=row.id,
         task=row.task,
@@ -204,7 +229,8 @@ def _run_row(row: AnyRow, needs: tuple[str, ...], progress: Progress | None) -> 
         preset=row.preset,
         state=RunState(row.state),
         reason=row.reason,
-        needs=needs,
+        needs=tuple(edge.needs_run_id for edge in needs),
+        unmet=unmet,
         attempt=row.attempt,
         progress=progress,
         success_rate=row.success_rate,
@@ -212,6 +238,22 @@ def _run_row(row: AnyRow, needs: tuple[str, ...], progress: Progress | None) -> 
         started_at=row.started_at,
         ended_at=row.ended_at,
         cancel_requested=row.cancel_requested,
+        pause_requested=row.pause_requested,
+        is_below_gate=row.state == RunState.BLOCKED and not unmet,
+        gate_waived=row.gate_waived,
+        needs_gpu=row.needs_gpu,
+        priority=-row.rank,
+        worker_id=row.worker_id,
+        not_before=row.not_before,
+        deleted_at=row.deleted_at,
         config=row.config,
         config_hash=row.config_hash,
     )
+
+
+_SORT_KEYS: Mapping[SortKey, ColumnElement[Any]] = {
+    "launched": run_table.c.number,
+    "task": run_table.c.task,
+    "state": run_table.c.state,
+    "success": func.coalesce(run_progress.c.success_rate, -1.0),
+}

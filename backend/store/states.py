@@ -34,7 +34,10 @@ class RunState(StrEnum):
 
 
 ENDED = frozenset({RunState.SUCCEEDED, RunState.FAILED, RunState.CANCELLED})
-"""The states that nothing leaves."""
+"""The states that nothing leaves but a person's wish to try again."""
+
+WAITING = frozenset({RunState.BLOCKED, RunState.QUEUED, RunState.PAUSED})
+"""The states of runs that no worker has and that have not ended."""
 
 
 class Event(StrEnum):
@@ -54,10 +57,22 @@ class Event(StrEnum):
     """An attempt failed in a way that may not repeat."""
     HANDED_BACK = "handed_back"
     """Its worker was asked to stop."""
+    PAUSE_REQUESTED = "pause_requested"
+    """A person wants it to wait; its worker does not know yet."""
+    PAUSE_WITHDRAWN = "pause_withdrawn"
+    """The person changed their mind before its worker had paused it."""
     PAUSED = "paused"
-    """It was checkpointed and gave back its slot."""
+    """It was checkpointed and gave back its slot, or was held before it began."""
     RESUMED = "resumed"
     """A person let it go on."""
+    RELEASED = "released"
+    """A person let it start below its gate."""
+    RESTARTED = "restarted"
+    """A person wants it tried again, from its checkpoint."""
+    DELETED = "deleted"
+    """A person hid it; it can be restored."""
+    RESTORED = "restored"
+    """A person brought it back."""
     CANCEL_REQUESTED = "cancel_requested"
     """A person wants it to end; its worker does not know yet."""
     SUCCEEDED = "succeeded"
@@ -74,27 +89,33 @@ class Transition:
 
     allowed: frozenset[RunState]
     """The states in which it can happen."""
-    to: RunState
-    """The state after it."""
+    to: frozenset[RunState]
+    """The states that can follow; none if it leaves the state as it is."""
 
 
-def _on(*allowed: RunState, to: RunState) -> Transition:
-    return Transition(frozenset(allowed), to)
+def _on(*allowed: RunState, to: RunState | tuple[RunState, ...] = ()) -> Transition:
+    return Transition(frozenset(allowed), frozenset((to,) if isinstance(to, RunState) else to))
 
 
 TRANSITIONS: Mapping[Event, Transition] = {
-    Event.HELD: _on(RunState.BLOCKED, to=RunState.BLOCKED),
+    Event.HELD: _on(RunState.BLOCKED),
     Event.UNBLOCKED: _on(RunState.BLOCKED, to=RunState.QUEUED),
+    Event.RELEASED: _on(RunState.BLOCKED, to=RunState.QUEUED),
     Event.CLAIMED: _on(RunState.QUEUED, to=RunState.RUNNING),
     Event.LOST: _on(RunState.RUNNING, to=RunState.QUEUED),
     Event.RETRIED: _on(RunState.RUNNING, to=RunState.QUEUED),
     Event.HANDED_BACK: _on(RunState.RUNNING, to=RunState.QUEUED),
-    Event.PAUSED: _on(RunState.RUNNING, to=RunState.PAUSED),
-    Event.RESUMED: _on(RunState.PAUSED, to=RunState.QUEUED),
-    Event.CANCEL_REQUESTED: _on(RunState.RUNNING, to=RunState.RUNNING),
+    Event.PAUSE_REQUESTED: _on(RunState.RUNNING),
+    Event.PAUSE_WITHDRAWN: _on(RunState.RUNNING),
+    Event.PAUSED: _on(RunState.BLOCKED, RunState.QUEUED, RunState.RUNNING, to=RunState.PAUSED),
+    Event.RESUMED: _on(RunState.PAUSED, to=(RunState.QUEUED, RunState.BLOCKED)),
+    Event.RESTARTED: _on(RunState.FAILED, RunState.CANCELLED, to=(RunState.QUEUED, RunState.BLOCKED)),
+    Event.CANCEL_REQUESTED: _on(RunState.RUNNING),
     Event.SUCCEEDED: _on(RunState.RUNNING, to=RunState.SUCCEEDED),
     Event.FAILED: _on(RunState.RUNNING, to=RunState.FAILED),
-    Event.CANCELLED: _on(RunState.BLOCKED, RunState.QUEUED, RunState.RUNNING, RunState.PAUSED, to=RunState.CANCELLED),
+    Event.CANCELLED: _on(*WAITING, RunState.RUNNING, to=RunState.CANCELLED),
+    Event.DELETED: _on(*WAITING, *ENDED),
+    Event.RESTORED: _on(*WAITING, *ENDED),
 }
 """Every change of state there is; `created` is the way in."""
 
@@ -106,13 +127,15 @@ def change_state(
     *,
     at: datetime,
     reason: str | None = None,
+    to: RunState | None = None,
     fence: int | None = None,
     changes: Mapping[str, Any] | None = None,
 ) -> AnyRow:
     """Let `event` happen to a run and write it into its history; return the changed row.
 
     Args:
-        reason: why, in one sentence; it stands on the run until the next change.
+        reason: why, in one sentence; it stands on the run as long as the state that follows.
+        to: the state that follows, where the event has several.
         fence: the change is made only if this is still the run's fence.
         changes: further columns to set.
 
@@ -121,7 +144,7 @@ def change_state(
         StaleFence: the run has moved on since the attempt with `fence` began.
         WrongState: the run's state does not allow the event.
     """
-    row = try_change_state(conn, run_id, event, at=at, reason=reason, fence=fence, changes=changes)
+    row = try_change_state(conn, run_id, event, at=at, reason=reason, to=to, fence=fence, changes=changes)
     if row is not None:
         return row
     found = conn.execute(select(runs.c.state).where(runs.c.id == run_id)).one_or_none()
@@ -139,23 +162,36 @@ def try_change_state(
     *,
     at: datetime,
     reason: str | None = None,
+    to: RunState | None = None,
     fence: int | None = None,
     changes: Mapping[str, Any] | None = None,
 ) -> AnyRow | None:
     """Let `event` happen to a run in one statement, or return None if it cannot."""
     transition = TRANSITIONS[event]
+    following = _following(event, to)
+    values = {"state": runs.c.state} if following is None else _arrival(following, at, reason)
     change = (
         update(runs)
         .where(runs.c.id == run_id, runs.c.state.in_(transition.allowed))
-        .values({**_marks(transition.to, at), "state": transition.to, "reason": reason, **(changes or {})})
+        .values({**values, **(changes or {})})
         .returning(*runs.c)
     )
     if fence is not None:
         change = change.where(runs.c.fence == fence)
     row = conn.execute(change).one_or_none()
     if row is not None:
-        append_event(conn, row.id, event, transition.to, at=at, attempt=row.attempt, detail=reason)
+        append_event(conn, row.id, event, RunState(row.state), at=at, attempt=row.attempt, detail=reason)
     return row
+
+
+def _following(event: Event, to: RunState | None) -> RunState | None:
+    """Return the state that follows an event, or None if the run stays where it is."""
+    possible = TRANSITIONS[event].to
+    if to is None and len(possible) <= 1:
+        return next(iter(possible), None)
+    if to not in possible:
+        raise ValueError(f"'{event}' leads to {', '.join(sorted(possible)) or 'no other state'}, not to {to}")
+    return to
 
 
 def append_event(
@@ -166,13 +202,11 @@ def append_event(
     conn.execute(insert(run_events).values(values))
 
 
-def _marks(to: RunState, at: datetime) -> dict[str, Any]:
-    """Return what every arrival in a state sets: a run that is not running has no worker and no lease."""
-    if to is RunState.RUNNING:
-        return {}
-    marks: dict[str, Any] = {"worker_id": None, "lease_until": None}
+def _arrival(to: RunState, at: datetime, reason: str | None) -> dict[str, Any]:
+    """Return what every arrival in a state sets: a run that is not running has no worker, no lease, no pause ahead."""
+    values: dict[str, Any] = {"state": to, "reason": reason}
+    if to is not RunState.RUNNING:
+        values |= {"worker_id": None, "lease_until": None, "pause_requested": False}
     if to in ENDED:
-        marks |= {"ended_at": at}
-    if to is not RunState.QUEUED:
-        marks |= {"pause_requested": False}
-    return marks
+        values |= {"ended_at": at}
+    return values

@@ -25,7 +25,7 @@ from sqlalchemy import (
     false,
 )
 
-SCHEMA_REVISION = "0001"
+SCHEMA_REVISION = "0002"
 """The migration that these tables correspond to."""
 
 AnyRow = Row[*tuple[Any, ...]]
@@ -83,6 +83,7 @@ runs = Table(
     Column("success_rate", Float),
     Column("attempt", Integer, nullable=False, server_default="0"),
     Column("failures", Integer, nullable=False, server_default="0"),
+    Column("deaths", Integer, nullable=False, server_default="0"),
     Column("fence", Integer, nullable=False, server_default="0"),
     Column("worker_id", String(ID_LENGTH)),
     Column("lease_until", UtcDateTime),
@@ -90,10 +91,17 @@ runs = Table(
     Column("progress_at", UtcDateTime),
     Column("cancel_requested", Boolean, nullable=False, server_default=false()),
     Column("pause_requested", Boolean, nullable=False, server_default=false()),
+    Column("gate_waived", Boolean, nullable=False, server_default=false()),
+    Column("needs_gpu", Boolean, nullable=False, server_default=false()),
+    Column("rank", Integer, nullable=False, server_default="0"),
+    Column("queue_position", Float, nullable=False, server_default="0"),
     Column("created_at", UtcDateTime, nullable=False),
     Column("started_at", UtcDateTime),
     Column("ended_at", UtcDateTime),
+    Column("deleted_at", UtcDateTime),
     Index(None, "state", "number"),
+    Index(None, "state", "rank", "queue_position", "number"),
+    Index(None, "queue_position"),
     Index(None, "config_hash"),
 )
 
@@ -123,6 +131,7 @@ attempts = Table(
     Column("attempt", Integer, primary_key=True, autoincrement=False),
     Column("fence", Integer, nullable=False),
     Column("worker_id", String(ID_LENGTH), nullable=False),
+    Column("host", String(NAME_LENGTH)),
     Column("started_at", UtcDateTime, nullable=False),
     Column("ended_at", UtcDateTime),
     Column("outcome", String(ID_LENGTH)),
@@ -190,7 +199,13 @@ workers = Table(
     Column("id", String(ID_LENGTH), primary_key=True),
     Column("host", String(NAME_LENGTH), nullable=False),
     Column("pid", Integer, nullable=False),
+    Column("executor", String(ID_LENGTH), nullable=False, server_default="local"),
     Column("slots", Integer, nullable=False),
+    Column("cores", Integer, nullable=False, server_default="0"),
+    Column("gpu", String(NAME_LENGTH)),
+    Column("memory_total", BigInteger, nullable=False, server_default="0"),
+    Column("memory_used", BigInteger, nullable=False, server_default="0"),
+    Column("draining", Boolean, nullable=False, server_default=false()),
     Column("started_at", UtcDateTime, nullable=False),
     Column("beat_at", UtcDateTime, nullable=False),
     Column("retired_at", UtcDateTime),
@@ -200,6 +215,7 @@ viewer_hosts = Table(
     "viewer_hosts",
     metadata,
     Column("id", String(ID_LENGTH), primary_key=True),
+    Column("name", String(NAME_LENGTH)),
     Column("pid", Integer, nullable=False),
     Column("beat_at", UtcDateTime, nullable=False),
 )

@@ -6,8 +6,9 @@ import pytest
 from live_api import Service, problem_fields
 
 from backend.store.metrics import MetricPoint, append_metrics
+from backend.store.outcomes import Succeeded
 from backend.store.progress import Progress, report_progress
-from backend.store.queue import Succeeded, finish
+from backend.store.queue import finish
 from sldr_core.records import Step
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 import threading
@@ -31,7 +32,7 @@ OPEN = "from backend.store.database import open_database; from backend.store.set
 def python(code: str, settings: Settings) -> subprocess.Popen[str]:
     return subprocess.Popen(
         [sys.executable, "-c", OPEN + code],
-        env=settings.as_environment(),
+        env={**os.environ, **settings.as_environment()},
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,

@@ -7,10 +7,12 @@ from dataclasses import replace
 import pytest
 from store_cases import claim_next, order
 
+from backend.store.actions import request_cancel
 from backend.store.database import Database
 from backend.store.launches import LaunchOrder, launch, plan_launch
-from backend.store.queue import Failed, Succeeded, claim, finish
-from backend.store.runs import RunFilter, get_run, list_runs, request_cancel
+from backend.store.outcomes import Failed, Succeeded
+from backend.store.queue import claim, finish
+from backend.store.runs import RunFilter, get_run, list_runs
 from backend.store.states import RunState
 from sldr_core.errors import InvalidConfig, UnknownName
 
@@ -129,7 +131,7 @@ def test_dependents_of_a_failed_run_say_why_they_wait(db: Database) -> None:
 
     run = get_run(db, manipulation)
     assert run.state is RunState.BLOCKED
-    assert run.reason == f"Its locomotion run {locomotion} failed, so there is no reward to learn from; launch again."
+    assert run.reason == f"Its locomotion run {locomotion} failed, so there is no reward to learn from; retry that one."
 
 
 def test_dependents_of_a_cancelled_run_say_why_they_wait(db: Database) -> None:

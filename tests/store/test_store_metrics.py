@@ -10,7 +10,8 @@ from backend.store.claims import Claim
 from backend.store.database import Database
 from backend.store.errors import StaleFence
 from backend.store.metrics import MetricPoint, append_metrics, read_metrics
-from backend.store.queue import HandedBack, finish
+from backend.store.outcomes import HandedBack
+from backend.store.queue import finish
 from backend.store.tables import metric_steps
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 import time
@@ -10,33 +11,27 @@ import pytest
 from sqlalchemy import update
 from store_cases import claim_next, claimed_run, order, queued_run
 
+from backend.store.actions import Action, act_on, request_cancel
 from backend.store.claims import claim_from_json, claim_to_json
 from backend.store.database import Database
 from backend.store.errors import StaleFence, WrongState
 from backend.store.files import register_file
 from backend.store.launches import launch
 from backend.store.metrics import append_metrics
+from backend.store.outcomes import MAX_ATTEMPTS, Cancelled, Failed, HandedBack, Paused, Succeeded
 from backend.store.progress import Progress, report_progress
-from backend.store.queue import (
-    MAX_ATTEMPTS,
-    Cancelled,
-    Failed,
-    HandedBack,
-    Paused,
-    Succeeded,
-    claim,
-    finish,
-    heartbeat,
-    read_requests,
-    reap_expired,
-)
-from backend.store.runs import get_run, list_events, request_cancel
+from backend.store.queue import claim, finish, heartbeat, read_requests, reap_expired
+from backend.store.runs import get_run, list_events
 from backend.store.settings import Settings
 from backend.store.states import RunState
 from backend.store.tables import runs
 
+WORK_S = 0.005
+"""How long a claimer is busy with each run, so that one alone cannot empty the queue before the others begin [s]."""
+
 CLAIM_ALL = """
 import sys
+import time
 from backend.store.database import open_database
 from backend.store.queue import claim
 from backend.store.settings import load_settings
@@ -46,6 +41,7 @@ print("ready", flush=True)
 sys.stdin.readline()
 while (claimed := claim(db, sys.argv[1])) is not None:
     print(claimed.run_id)
+    time.sleep(float(sys.argv[2]))
 """
 
 
@@ -53,11 +49,11 @@ def test_four_processes_claim_each_of_200_runs_once(db: Database, settings: Sett
     launched = launch(db, order(seeds=tuple(range(100)))) + launch(db, order(method="ddpg", seeds=tuple(range(100))))
     processes = [
         subprocess.Popen(
-            [sys.executable, "-c", CLAIM_ALL, f"worker-{number}"],
+            [sys.executable, "-c", CLAIM_ALL, f"worker-{number}", str(WORK_S)],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             text=True,
-            env=settings.as_environment(),
+            env={**os.environ, **settings.as_environment()},
         )
         for number in range(4)
     ]
@@ -188,6 +184,7 @@ def test_a_failure_that_would_repeat_is_not_retried(db: Database) -> None:
 
 def test_a_paused_run_gives_its_slot_back(db: Database) -> None:
     claimed = claimed_run(db)
+    act_on(db, Action.PAUSE, [claimed.run_id])
     finish(db, claimed, Paused())
 
     assert get_run(db, claimed.run_id).state is RunState.PAUSED

@@ -16,7 +16,8 @@ from backend.store.errors import StaleFence
 from backend.store.files import find_file, list_files, register_file
 from backend.store.launches import LaunchOrder, launch
 from backend.store.metrics import MetricPoint, append_metrics, read_metrics
-from backend.store.queue import HandedBack, Succeeded, claim, finish
+from backend.store.outcomes import HandedBack, Succeeded
+from backend.store.queue import claim, finish
 from backend.store.runs import get_run
 from backend.store.settings import Settings
 from sldr_core.errors import BadFile, LocomotionMissing, TrainingDiverged

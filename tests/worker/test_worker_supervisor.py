@@ -20,10 +20,11 @@ from worker_cases import (
     worker_process,
 )
 
+from backend.store.actions import request_cancel
 from backend.store.database import Database
 from backend.store.metrics import read_metrics
 from backend.store.queue import reap_expired
-from backend.store.runs import get_run, list_events, request_cancel
+from backend.store.runs import get_run, list_events
 from backend.store.settings import Settings
 from backend.store.states import RunState
 from backend.store.workers import list_workers

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 import threading
@@ -55,7 +56,9 @@ def worker(db: Database, settings: Settings, behaviour: str, timing: Timing = TI
 @contextmanager
 def worker_process(settings: Settings, behaviour: str) -> Generator[subprocess.Popen[bytes]]:
     """Run a supervisor in a process of its own."""
-    process = subprocess.Popen([sys.executable, str(HERE / "fake_worker.py"), behaviour], env=settings.as_environment())
+    process = subprocess.Popen(
+        [sys.executable, str(HERE / "fake_worker.py"), behaviour], env={**os.environ, **settings.as_environment()}
+    )
     try:
         yield process
     finally:

@@ -1,0 +1,60 @@
+"""How long runs take, measured on those that have succeeded."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from statistics import median
+
+from sqlalchemy import Connection, select
+
+from backend.store.runs import RunRow
+from backend.store.states import RunState
+from backend.store.tables import attempts, runs
+
+MEASURED_AT_MOST = 500
+"""So many of the newest succeeded runs are looked at."""
+
+Like = tuple[str, ...]
+"""What two runs must share to be expected to take equally long, from the nearest likeness to the farthest."""
+
+
+@dataclass(frozen=True)
+class Durations:
+    """Hold the seconds that succeeded runs spent in training, by what they were [s]."""
+
+    by_likeness: dict[Like, list[float]] = field(default_factory=dict[Like, "list[float]"])
+
+    def seconds_left(self, run: RunRow) -> float | None:
+        """Return how long a run will take from where it stands, or None if nothing like it has succeeded [s]."""
+        done = run.progress.fraction if run.progress else 0.0
+        for likeness in _likenesses(run.task, run.phase, run.method, run.preset):
+            if likeness in self.by_likeness:
+                return (1.0 - done) * median(self.by_likeness[likeness])
+        return None
+
+
+def measure_durations(conn: Connection) -> Durations:
+    """Measure the newest succeeded runs: the time that their attempts took, whatever they waited between them."""
+    newest = (
+        select(runs.c.id, runs.c.task, runs.c.phase, runs.c.method, runs.c.preset)
+        .where(runs.c.state == RunState.SUCCEEDED)
+        .order_by(runs.c.number.desc())
+        .limit(MEASURED_AT_MOST)
+        .subquery()
+    )
+    query = select(newest, attempts.c.started_at, attempts.c.ended_at).join(attempts, attempts.c.run_id == newest.c.id)
+    seconds: dict[str, float] = {}
+    likenesses: dict[str, Iterable[Like]] = {}
+    for row in conn.execute(query.where(attempts.c.ended_at.is_not(None))):
+        seconds[row.id] = seconds.get(row.id, 0.0) + (row.ended_at - row.started_at).total_seconds()
+        likenesses[row.id] = _likenesses(row.task, row.phase, row.method, row.preset)
+    durations = Durations()
+    for run_id, of_run in likenesses.items():
+        for likeness in of_run:
+            durations.by_likeness.setdefault(likeness, []).append(seconds[run_id])
+    return durations
+
+
+def _likenesses(task: str, phase: str, method: str, preset: str) -> tuple[Like, ...]:
+    return (task, phase, method, preset), (phase, preset), (preset,)
