@@ -13,6 +13,7 @@ from backend.api.errors import problem_responses
 from backend.api.queue_schemas import Attempt, Attempts
 from backend.api.schemas import MetricBatch, RunDetail, RunEvent, RunEvents, RunPage
 from backend.store import attempts, files, metrics, runs
+from backend.store.run_order import SortKey
 from backend.store.states import RunState
 from sldr_core.config import Phase
 
@@ -36,7 +37,7 @@ def list_runs(
         str | None, Query(max_length=200, description="Words that id, task, method, phase, preset or state hold.")
     ] = None,
     deleted: Annotated[bool, Query(description="The runs that a person hid, instead of all others.")] = False,
-    sort: Annotated[runs.SortKey, Query(description="`success` is that of the newest test.")] = "launched",
+    sort: Annotated[SortKey, Query(description="`success` is that of the newest test.")] = "launched",
     descending: bool = True,
     limit: Annotated[int, Query(ge=1, le=LARGEST_PAGE)] = 50,
     cursor: Annotated[str | None, Query(max_length=15, description="`next_cursor` of the page before.")] = None,
