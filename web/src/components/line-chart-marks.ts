@@ -61,19 +61,26 @@ export function drawMarks(plot: uPlot, marks: readonly Mark[], color: string): v
   ctx.fillStyle = color;
   ctx.lineWidth = ratio;
   ctx.font = `${10 * ratio}px system-ui, sans-serif`;
+  ctx.textAlign = 'left';
   ctx.textBaseline = 'alphabetic';
   ctx.setLineDash([3 * ratio, 3 * ratio]);
-  for (const { x, label } of marks) {
+  const gap = 4 * ratio;
+  // How far to the right each row of labels is written on; labels that would touch stand below each other.
+  const written: number[] = [];
+  for (const { x, label } of [...marks].sort((one, other) => one.x - other.x)) {
     const left = plot.valToPos(x, 'x', true);
     if (!inside(left, [bbox.left, bbox.left + bbox.width])) continue;
     ctx.beginPath();
     ctx.moveTo(left, bbox.top);
     ctx.lineTo(left, bbox.top + bbox.height);
     ctx.stroke();
-    const gap = 4 * ratio;
-    const fits = left + gap + ctx.measureText(label).width < bbox.left + bbox.width;
-    ctx.textAlign = fits ? 'left' : 'right';
-    ctx.fillText(label, fits ? left + gap : left - gap, bbox.top + 10 * ratio);
+    const width = ctx.measureText(label).width;
+    const fits = left + gap + width < bbox.left + bbox.width;
+    const start = fits ? left + gap : left - gap - width;
+    const free = written.findIndex((end) => end + gap < start);
+    const row = free === -1 ? written.length : free;
+    written[row] = start + width;
+    ctx.fillText(label, start, bbox.top + (10 + 12 * row) * ratio);
   }
   ctx.restore();
 }

@@ -63,6 +63,16 @@ test('each later attempt has a start, also one that was replaced in turn', () =>
   ]);
 });
 
+test('an attempt of which only the end was replaced began where it began', () => {
+  const steps = [1, 2, 3, 4, 3, 4, 5, 6, 5, 6];
+  const mixed = { ...batch(10, steps, {}), attempt: [1, 1, 1, 1, 2, 2, 2, 2, 3, 3] };
+  const starts = attemptStarts(mergeMetrics(NO_METRICS, mixed));
+  expect(starts.map(({ attempt, part, row }) => [attempt, part.step[row]])).toEqual([
+    [2, 3],
+    [3, 5],
+  ]);
+});
+
 test('an attempt that goes on without a gap replaces nothing', () => {
   const first = mergeMetrics(NO_METRICS, batch(2, [1, 2], {}));
   const both = mergeMetrics(first, batch(4, [3, 4], {}, 2));

@@ -45,7 +45,10 @@ export function attemptStarts(metrics: Metrics): AttemptStart[] {
   const starts = new Map<number, AttemptStart>();
   for (const part of [...metrics.replaced, metrics]) {
     part.attempt.forEach((attempt, row) => {
-      if (!starts.has(attempt)) starts.set(attempt, { attempt, part, row });
+      const known = starts.get(attempt);
+      if (known === undefined || stepOf(part, row) < stepOf(known.part, known.row)) {
+        starts.set(attempt, { attempt, part, row });
+      }
     });
   }
   const first = Math.min(...starts.keys());
@@ -57,6 +60,10 @@ export function attemptStarts(metrics: Metrics): AttemptStart[] {
 /** The newest value of a metric, or null if it was never logged. */
 export function newestValue(column: readonly (number | null)[]): number | null {
   return column.findLast((value) => value !== null) ?? null;
+}
+
+function stepOf(part: MetricBatch, row: number): number {
+  return part.step[row] ?? Number.POSITIVE_INFINITY;
 }
 
 /** Cut a batch where another attempt begins. */

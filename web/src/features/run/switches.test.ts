@@ -34,6 +34,6 @@ test('in locomotion the robot is a switch', () => {
 test('a switch that was turned is marked, and a new word is shown as it is', () => {
   const turned = { ...RUN, config: { ...CONFIG, sldr: { reward: 'something_new', gate: 0 } } };
   const [, reward, gate] = switchesOf(turned, true, CONFIG);
-  expect([reward?.text, reward?.isChanged]).toEqual(['something_new', true]);
-  expect(gate?.text).toBe('none');
+  expect([reward?.text, reward?.usual]).toEqual(['something_new', 'Eq. 8, difference of Q']);
+  expect([gate?.text, gate?.usual]).toEqual(['none', '95\u202f%']);
 });

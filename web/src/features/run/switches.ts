@@ -8,8 +8,8 @@ export interface Switch {
   readonly path: string;
   readonly label: string;
   readonly text: string;
-  /** Whether it stands otherwise than the preset has it. */
-  readonly isChanged: boolean;
+  /** How the preset has it, where that is otherwise. */
+  readonly usual?: string;
 }
 
 interface Kind {
@@ -60,8 +60,8 @@ export function switchesOf(run: RunDetail, usesSldr: boolean, defaults: Config |
   return KINDS.filter(({ path, applies }) => applies(run.phase, usesSldr) && valueAt(run.config, path) !== null).map(
     ({ path, label, describe }) => {
       const value = valueAt(run.config, path);
-      const isChanged = defaults !== undefined && !isSame(value, valueAt(defaults, path));
-      return { path, label, text: describe(value), isChanged };
+      const usual = defaults === undefined ? value : valueAt(defaults, path);
+      return { path, label, text: describe(value), usual: isSame(value, usual) ? undefined : describe(usual) };
     },
   );
 }

@@ -6,6 +6,7 @@ import { AnchorLink } from '@/components/anchor-link';
 import { Icon } from '@/components/icon';
 import { PriorityField } from '@/components/priority-field';
 import { Reason } from '@/components/reason';
+import { RunRemedy } from '@/components/run-remedy';
 import { StateBadge } from '@/components/state-badge';
 import { useToast } from '@/components/toasts';
 import { sentence } from '@/lib/api';
@@ -82,7 +83,7 @@ export function QueueRow({ entry, isMovable, isDragged, isTarget, onDrag, onDrop
       </span>
       <div className={classes.what}>
         <span className={classes.title}>
-          <AnchorLink to="/runs/$runId" params={{ runId: run.id }} fw={600} aria-label={runTitle(run)}>
+          <AnchorLink to="/runs/$runId" params={{ runId: run.id }} fw={600} fz="inherit" aria-label={runTitle(run)}>
             {run.task}
           </AnchorLink>
           <StateBadge state={run.state} wish={wishOf(run)} />
@@ -93,6 +94,7 @@ export function QueueRow({ entry, isMovable, isDragged, isTarget, onDrag, onDrop
       </div>
       <div className={classes.why}>
         <Reason text={waits_for} runIds={run.needs} />
+        <RunRemedy run={run} />
       </div>
       <Expected entry={entry} />
       <Priority entry={entry} />
@@ -123,7 +125,7 @@ function MoveButton({ label, icon, move, onMove }: MoveProps) {
       color="gray"
       aria-label={label}
       aria-disabled={move === undefined}
-      data-disabled={move === undefined || undefined}
+      className={classes.move}
       onClick={() => onMove(move)}
     >
       <Icon name={icon} size={15} />

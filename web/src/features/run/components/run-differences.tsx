@@ -15,35 +15,50 @@ export function RunDifferences({ run }: { run: RunDetail }) {
   if (choices === undefined || defaults === undefined) return null;
   const usesSldr =
     phase === 'manipulation' && choices.methods.some((spec) => spec.name === method && spec.needs_locomotion);
+  const switches = switchesOf(run, usesSldr, defaults);
+  const others = differences(groups, run.config, defaults).filter(
+    ({ setting }) => !switches.some(({ path }) => path === setting.path),
+  );
   return (
     <section className={`card ${classes.panel}`} aria-label="What differs">
-      <h2>Changed from {preset}</h2>
-      <Changed changed={differences(groups, run.config, defaults)} />
       <h2>Switches</h2>
       <dl className={classes.list}>
-        {switchesOf(run, usesSldr, defaults).map(({ path, label, text, isChanged }) => (
-          <div key={path} data-changed={isChanged || undefined} title={path}>
-            <dt>{label}</dt>
-            <dd>{text}</dd>
-          </div>
+        {switches.map(({ path, label, text, usual }) => (
+          <Item key={path} path={path} label={label} text={text} usual={usual} />
         ))}
       </dl>
+      <h2>Changed from {preset}</h2>
+      {others.length > 0 ? <Changed changed={others} /> : <p className="faint">no other setting</p>}
     </section>
   );
 }
 
 function Changed({ changed }: { changed: readonly Difference[] }) {
-  if (changed.length === 0) return <p className="faint">nothing</p>;
   return (
     <dl className={classes.list}>
-      {changed.map(({ setting, value, usual }) => (
-        <div key={setting.path} data-changed title={setting.path}>
-          <dt>{setting.label}</dt>
-          <dd>
-            {settingText(value)} <span className="faint">was {settingText(usual) || 'empty'}</span>
-          </dd>
-        </div>
+      {changed.map(({ setting: { path, label }, value, usual }) => (
+        <Item key={path} path={path} label={label} text={settingText(value)} usual={settingText(usual) || 'empty'} />
       ))}
     </dl>
+  );
+}
+
+interface ItemProps {
+  path: string;
+  label: string;
+  text: string;
+  /** How the preset has it, where that is otherwise. */
+  usual: string | undefined;
+}
+
+function Item({ path, label, text, usual }: ItemProps) {
+  return (
+    <div data-changed={usual !== undefined || undefined} title={path}>
+      <dt>{label}</dt>
+      <dd>
+        {text}
+        {usual !== undefined && <span className="faint"> was {usual}</span>}
+      </dd>
+    </div>
   );
 }

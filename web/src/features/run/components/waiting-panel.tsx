@@ -28,14 +28,9 @@ export function WaitingPanel({ run, locomotionId }: { run: RunDetail; locomotion
         </>
       }
     >
-      {run.reason ?? 'The run starts by itself once its locomotion model is good enough.'}
-      {run.is_below_gate && (
-        <p className={classes.explanation}>
-          The robot is rewarded for moving the object as the object would move itself, so a poor model teaches it the
-          wrong thing. That is why the run waits until the model's tests reach its gate of{' '}
-          {formatShare(Number(valueAt(run.config, 'sldr.gate')))}.
-        </p>
-      )}
+      {run.is_below_gate
+        ? `The robot is rewarded for moving the object as the object would move itself, so a poor model teaches it the wrong thing. That is why the run waits: its gate asks for a test success of ${formatShare(Number(valueAt(run.config, 'sldr.gate')), 1)}.`
+        : (run.reason ?? 'The run starts by itself once its locomotion model is good enough.')}
       {locomotion && (
         <span className={classes.waiting}>
           <StateBadge state={locomotion.state} wish={wishOf(locomotion)} />

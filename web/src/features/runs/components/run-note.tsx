@@ -1,10 +1,8 @@
 /** Why a run waits or ended so, with the way to the run it waits for, and what can be done about it. */
-import { Button } from '@mantine/core';
 import type { RunSummary } from '@/client/schema.gen';
 import { Reason } from '@/components/reason';
-import { useRunActing } from '@/components/run-acting';
+import { RunRemedy } from '@/components/run-remedy';
 import { formatShare } from '@/lib/format';
-import { ACTION_MEANING, ACTION_NAMES, type Action, allows } from '@/lib/run-actions';
 import classes from './runs.module.css';
 
 /** Whether there is anything to say below a run. */
@@ -21,29 +19,8 @@ export function RunNote({ run, runs }: { run: RunSummary; runs: readonly RunSumm
         runIds={run.needs}
         describe={(id) => standing(runs.find((other) => other.id === id))}
       />
-      <Remedy run={run} />
+      <RunRemedy run={run} />
     </span>
-  );
-}
-
-/** What a person would do first about a run that needs one. */
-const REMEDIES: readonly Action[] = ['retry', 'release'];
-
-function Remedy({ run }: { run: RunSummary }) {
-  const { act, isActing } = useRunActing();
-  // Who cancelled a run knows why; one that failed wants a look.
-  const action = REMEDIES.find((remedy) => allows(run, remedy) && run.state !== 'cancelled');
-  if (action === undefined) return null;
-  return (
-    <Button
-      variant="light"
-      size="compact-xs"
-      loading={isActing}
-      title={ACTION_MEANING[action]}
-      onClick={() => act(action, [run])}
-    >
-      {ACTION_NAMES[action]}
-    </Button>
   );
 }
 

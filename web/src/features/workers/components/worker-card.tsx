@@ -17,6 +17,7 @@ export function WorkerCard({ worker }: { worker: Worker }) {
     <li className={`card ${classes.card}`} data-worker={id}>
       <div className={classes.head}>
         <h2>{host}</h2>
+        {worker.draining && <span className={classes.draining}>draining</span>}
         <Life worker={worker} />
       </div>
       <div className="faint">
@@ -57,9 +58,7 @@ function Life({ worker }: { worker: Worker }) {
     ? ['gone', 'failed']
     : silent > LATE_AFTER_S
       ? ['late', 'blocked']
-      : worker.draining
-        ? ['draining', 'paused']
-        : ['alive', 'succeeded'];
+      : ['alive', 'succeeded'];
   return (
     <span className={classes.life} data-state={state} title="Its last sign of life">
       <span className={classes.dot} aria-hidden="true" />
