@@ -37,6 +37,12 @@ def test_a_run_is_moved_before_another_and_to_the_end(service: Service):
     assert waiting(service) == [first, second, third]
 
 
+def test_runs_launched_at_different_times_can_be_moved_while_no_worker_is_there(service: Service):
+    [first], [second] = service.launch(seeds=(0,)), service.launch(seeds=(1,))
+    service.client.post(f"/api/runs/{second}/move", json={"before": first})
+    assert waiting(service) == [second, first]
+
+
 def test_a_run_that_trains_has_no_place_to_change(service: Service):
     first, second = service.launch(seeds=(0, 1))
     service.claim()

@@ -7,7 +7,14 @@ function entry(id: string, state: QueueEntry['run']['state'], ends_at: string | 
   return { run: { ...RUN, id, state }, position: null, waits_for: '', starts_at: null, ends_at };
 }
 
-const QUEUE = [entry('running', 'running'), entry('a', 'queued'), entry('b', 'blocked'), entry('c', 'queued')];
+const QUEUE = [
+  entry('running', 'running'),
+  entry('a', 'queued'),
+  entry('b', 'queued'),
+  entry('blocked', 'blocked'),
+  entry('c', 'queued'),
+  entry('paused', 'paused'),
+];
 
 test.each([
   ['b', -1, { runId: 'b', before: 'a' }],
@@ -16,6 +23,7 @@ test.each([
   ['a', -1, undefined],
   ['c', 1, undefined],
   ['running', 1, undefined],
+  ['blocked', 1, undefined],
 ] as const)('a step of %s by %d is %j', (id, step, move) => {
   expect(stepped(QUEUE, id, step)).toEqual(move);
 });
@@ -27,15 +35,16 @@ test.each([
   ['a', 'b', false, undefined],
   ['b', 'a', true, undefined],
   ['a', 'running', true, undefined],
+  ['a', 'blocked', true, undefined],
 ] as const)('%s dropped on %s, lower half %s, is %j', (id, on, isLower, move) => {
   expect(dropped(QUEUE, id, on, isLower)).toEqual(move);
 });
 
 test('the order is shown as it will be', () => {
   const ids = (entries: readonly QueueEntry[]) => entries.map(({ run }) => run.id);
-  expect(ids(reordered(QUEUE, { runId: 'c', before: 'a' }))).toEqual(['running', 'c', 'a', 'b']);
-  expect(ids(reordered(QUEUE, { runId: 'a', before: null }))).toEqual(['running', 'b', 'c', 'a']);
-  expect(ids(reordered(QUEUE, { runId: 'a', before: 'gone' }))).toEqual(['running', 'a', 'b', 'c']);
+  expect(ids(reordered(QUEUE, { runId: 'c', before: 'a' }))).toEqual(['running', 'c', 'a', 'b', 'blocked', 'paused']);
+  expect(ids(reordered(QUEUE, { runId: 'a', before: null }))).toEqual(['running', 'b', 'blocked', 'c', 'a', 'paused']);
+  expect(reordered(QUEUE, { runId: 'a', before: 'gone' })).toEqual(QUEUE);
 });
 
 test('the end is that of the last run, unless one is unknown; paused ones do not count', () => {

@@ -7,9 +7,9 @@ export interface Move {
   readonly before: string | null;
 }
 
-/** Whether a run has a place that can change: it waits, and no worker has it. */
+/** Whether a run has a place that can change; blocked and paused ones get theirs when they are queued. */
 export function isMovable({ run }: QueueEntry): boolean {
-  return run.state === 'queued' || run.state === 'blocked' || run.state === 'paused';
+  return run.state === 'queued';
 }
 
 /** One place up or down; undefined where the run stands at that end already. */
@@ -34,7 +34,8 @@ export function dropped(entries: readonly QueueEntry[], runId: string, on: strin
 export function reordered(entries: readonly QueueEntry[], { runId, before }: Move): QueueEntry[] {
   const moved = entries.find((entry) => entry.run.id === runId);
   const others = entries.filter((entry) => entry.run.id !== runId);
-  const at = before === null ? others.length : others.findIndex((entry) => entry.run.id === before);
+  // The end is that of the queued runs: what is blocked or paused stands by itself.
+  const at = before === null ? others.findLastIndex(isMovable) + 1 : others.findIndex(({ run }) => run.id === before);
   if (moved === undefined || at === -1) return [...entries];
   return [...others.slice(0, at), moved, ...others.slice(at)];
 }

@@ -25,7 +25,7 @@ export function QueueList({ entries }: { entries: readonly QueueEntry[] }) {
   return (
     <>
       <p className={`faint ${classes.help}`}>
-        Drag a waiting run to another place, use its arrows, or press Alt with the up and down keys. Runs of a higher
+        Drag a queued run to another place, use its arrows, or press Alt with the up and down keys. Runs of a higher
         priority start first.
       </p>
       <ol className={`card ${classes.list}`} aria-label="Queue">
