@@ -77,11 +77,11 @@ export function LineChart(props: Props) {
     if (wish.range !== undefined) props.onZoom(wish.range);
     if (wish.at !== undefined) setAt(wish.at);
   };
-  // After the window has moved, so that the cursor stands where the point is now.
   // biome-ignore lint/correctness/useExhaustiveDependencies: the plot itself is no state
   useEffect(() => {
     const place = at === null ? undefined : x[at];
-    if (plot.current && place !== undefined) pointAt(plot.current, place);
+    // The plot takes a new window in a microtask of its own; only behind that does the cursor find its place.
+    if (place !== undefined) queueMicrotask(() => pointAt(plot.current, place));
   }, [at, range[0], range[1]]);
   const shown = at ?? x.length - 1;
 
@@ -100,19 +100,24 @@ export function LineChart(props: Props) {
         aria-valuetext={shown >= 0 ? props.describePoint(shown) : 'no points yet'}
         onKeyDown={press}
         onBlur={() => {
+          if (at !== null) pointAt(plot.current, null);
           setAt(null);
-          props.onPoint(null);
         }}
       />
     </div>
   );
 }
 
-/** Put the cursor at a place of the x axis, in this chart and in those that share it. */
-function pointAt(plot: uPlot, place: number): void {
+/** Put the cursor at a place of the x axis, or nowhere, in this chart and in those that share it. */
+function pointAt(plot: uPlot | null, place: number | null): void {
+  if (plot === null) return;
   const setCursor = plot.setCursor as (at: { left: number; top: number }, fire: boolean, share: boolean) => void;
-  setCursor({ left: plot.valToPos(place, 'x'), top: plot.over.clientHeight / 2 }, true, true);
+  const top = plot.over.clientHeight / 2;
+  setCursor(place === null ? NOWHERE : { left: plot.valToPos(place, 'x'), top }, true, true);
 }
+
+/** Where uPlot draws no cursor [px]. */
+const NOWHERE = { left: -10, top: -10 };
 
 function dataOf({ x, lines, isSmoothed }: Props): uPlot.AlignedData {
   const columns = isSmoothed

@@ -62,7 +62,7 @@ export function useRunActing(onDone?: (action: Action, runIds: readonly string[]
         <Button variant="default" onClick={close} data-autofocus>
           Keep {asked.length > 1 ? 'them' : 'it'}
         </Button>
-        <Button color="red" onClick={confirm}>
+        <Button color="red.9" onClick={confirm}>
           Yes, cancel {asked.length > 1 ? 'them' : 'it'}
         </Button>
       </Group>

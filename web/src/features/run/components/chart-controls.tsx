@@ -62,7 +62,9 @@ export function ChartControls({ axis, weight, isZoomed, onAxis, onWeight, onZoom
             Show all and follow
           </Button>
         ) : (
-          <span className={`faint ${classes.hint}`}>Drag in a chart to zoom, double-click to reset.</span>
+          <span className={`faint ${classes.hint}`}>
+            Drag in a chart, or press + and − in it, to zoom; a double click or 0 shows all.
+          </span>
         )}
       </div>
     </div>

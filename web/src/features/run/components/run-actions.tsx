@@ -45,7 +45,7 @@ export function RunActions({ run }: { run: RunDetail }) {
             <Menu.Item
               key={action}
               leftSection={<Icon name={ACTION_ICONS[action]} size={14} />}
-              color={HARSH.includes(action) ? 'red' : undefined}
+              color={HARSH.includes(action) ? 'var(--state-failed)' : undefined}
               onClick={() => act(action, [run])}
             >
               <span className={classes.menuItem}>

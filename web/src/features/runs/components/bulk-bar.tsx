@@ -67,7 +67,6 @@ function BulkAction({ action, runs, isBusy, onAct }: ActionProps) {
     <Button
       variant="default"
       size="compact-sm"
-      color={action === 'delete' ? 'red' : undefined}
       disabled={isBusy}
       leftSection={<Icon name={ACTION_ICONS[action]} size={13} />}
       title={ACTION_MEANING[action]}
