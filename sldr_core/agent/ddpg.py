@@ -1,4 +1,4 @@
-"""DDPG with one critic per reward stream (paper §3.1 and §4.3).
+"""DDPG with one critic per reward stream (paper §3.2 and §4.3).
 
 `B` batch, `S` streams, `F` features, `A` action.
 """

@@ -1,4 +1,4 @@
-"""The maths of DDPG as pure functions (paper Eq. 2, 3 and 9, 10).
+"""The maths of DDPG as pure functions (paper Eq. 3, 4, 10 and 11).
 
 `B` batch, `S` streams, `A` action.
 """

@@ -45,6 +45,9 @@ class Preset:
 QUICK_AGENT: Settings = {"hidden_sizes": [128, 128, 128], "gamma": 0.95}
 """Small nets that two cores can train, and a horizon that values spread over within minutes."""
 
+SMOKE_CURRICULUM: Settings = {"group_size": 32, "candidates": 16, "kept": 8}
+"""Groups that a small batch has room for, in the usual proportions."""
+
 PRESETS: dict[str, Preset] = {
     preset.name: preset
     for preset in (
@@ -101,6 +104,8 @@ PRESETS: dict[str, Preset] = {
                 "replay": {"capacity": 2000},
                 "compute": {"threads": 1},
                 "sldr": {"gate": 0.0},
+                "rnd": {"outputs": 32},
+                "curriculum": SMOKE_CURRICULUM,
             },
             locomotion={
                 "loop": {
@@ -115,6 +120,7 @@ PRESETS: dict[str, Preset] = {
                 "agent": {"hidden_sizes": [32, 32, 32]},
                 "replay": {"capacity": 2000},
                 "compute": {"threads": 1},
+                "curriculum": SMOKE_CURRICULUM,
             },
         ),
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,16 +10,25 @@ import numpy as np
 import torch
 
 from sldr_core.agent import DdpgAgent, InverseLearner
-from sldr_core.config import TrainConfig
+from sldr_core.config import Auxiliary, SamplerName, TrainConfig
 from sldr_core.envs import Envs, make_envs
 from sldr_core.errors import BadFile, LocomotionMissing
 from sldr_core.nets.locomotion_model import LocomotionModel, load_locomotion_model
-from sldr_core.nets.views import part_view, view_of
+from sldr_core.nets.views import view_of
 from sldr_core.presets import locomotion_tasks
-from sldr_core.replay import HindsightSampler, ReplayBuffer
-from sldr_core.streams import SldrStream, Stream, TaskStream
+from sldr_core.replay import ReplayBuffer, Sampler, SamplerOrder, build_curriculum, build_hindsight
+from sldr_core.streams import Stream, StreamOrder, TaskStream, build_rnd, build_sldr
 from sldr_core.training.compute import Compute, resolve_compute
 from sldr_core.training.rollout import Exploration
+
+AUXILIARY: dict[Auxiliary, Callable[[StreamOrder], Sequence[Stream]]] = {"sldr": build_sldr, "rnd": build_rnd}
+"""How the streams that a method names are put together."""
+
+SAMPLERS: dict[SamplerName, Callable[[SamplerOrder], Sampler]] = {
+    "hindsight": build_hindsight,
+    "curriculum": build_curriculum,
+}
+"""How the sampler that a method names is put together."""
 
 REPLAY_FILE = "replay.bin"
 
@@ -39,7 +48,7 @@ class Parts:
     envs: Envs
     test_envs: Envs
     buffer: ReplayBuffer
-    sampler: HindsightSampler
+    sampler: Sampler
     exploration: Exploration
     agent: DdpgAgent
     inverse: InverseLearner | None
@@ -64,9 +73,9 @@ def build_training(config: TrainConfig, directory: Path, locomotion_models: Sequ
     models = _load_models(config, locomotion_models)
     compute = resolve_compute(config.compute)
     task, loop = config.task_spec, config.loop
-    sampling_seed, exploration_seed, weight_seed = np.random.SeedSequence(config.seed).spawn(3)
-    weights = torch.Generator().manual_seed(int(weight_seed.generate_state(1)[0]))
-    streams = _build_streams(config, compute, models)
+    sampling_seed, exploration_seed, weight_seed, stream_seed = np.random.SeedSequence(config.seed).spawn(4)
+    weights = _weight_generator(weight_seed)
+    streams = _build_streams(config, compute, models, _weight_generator(stream_seed))
     envs = _build_envs(config, compute, config.seed, testing=False)
     test_envs = _build_envs(config, compute, config.seed + TEST_SEED_OFFSET, testing=True)
     agent = DdpgAgent(
@@ -94,9 +103,7 @@ def build_training(config: TrainConfig, directory: Path, locomotion_models: Sequ
         envs=envs,
         test_envs=test_envs,
         buffer=buffer,
-        sampler=HindsightSampler(
-            buffer, envs.reward, config.replay.relabel_probability, config.replay.still_weight, rng
-        ),
+        sampler=SAMPLERS[config.method_spec.sampler](SamplerOrder(config, buffer, envs.reward, envs.gaps, rng)),
         exploration=Exploration(config.exploration, np.random.default_rng(exploration_seed)),
         agent=agent,
         inverse=inverse if locomotion else None,
@@ -134,22 +141,17 @@ def _of_tasks(tasks: Sequence[str]) -> str:
     return "a locomotion model of " + " and one of ".join(tasks)
 
 
-def _build_streams(config: TrainConfig, compute: Compute, models: Mapping[str, LocomotionModel]) -> tuple[Stream, ...]:
-    """Return the task's own stream and, where the method has locomotion models, one for each part of the task."""
-    task = config.task_spec
-    auxiliary = [
-        SldrStream(
-            part.name,
-            config.sldr.weight,
-            models[part.locomotion_task],
-            part_view(task, part),
-            compute.device,
-            compute.autocast,
-        )
-        for part in task.parts
-        if part.locomotion_task in models
-    ]
-    return (TaskStream(), *auxiliary)
+def _weight_generator(seed: np.random.SeedSequence) -> torch.Generator:
+    return torch.Generator().manual_seed(int(seed.generate_state(1)[0]))
+
+
+def _build_streams(
+    config: TrainConfig, compute: Compute, models: Mapping[str, LocomotionModel], generator: torch.Generator
+) -> tuple[Stream, ...]:
+    """Return the task's own stream and those that the method brings."""
+    order = StreamOrder(config, models, generator, compute.device, compute.autocast)
+    brought = [stream for name in config.method_spec.auxiliary for stream in AUXILIARY[name](order)]
+    return (TaskStream(), *brought)
 
 
 def _build_envs(config: TrainConfig, compute: Compute, seed: int, testing: bool) -> Envs:
@@ -162,6 +164,7 @@ def _build_envs(config: TrainConfig, compute: Compute, seed: int, testing: bool)
         robot=config.scene.locomotion_robot,
         testing=testing,
         variant=config.scene.variant,
+        reward=config.method_spec.reward,
     )
 
 

@@ -49,6 +49,7 @@ def write_checkpoint(path: Path, parts: Parts, counters: Counters) -> None:
             "counters": asdict(counters),
             "agent": parts.agent.state_dict(),
             "inverse": parts.inverse.state_dict() if parts.inverse else None,
+            "streams": {stream.name: stream.state_dict() for stream in parts.streams},
             "envs": _pack_envs(parts.envs),
             "test_envs": _pack_envs(parts.test_envs),
             "sampler_rng": _pack_rng(parts.sampler.rng),
@@ -87,6 +88,8 @@ def restore_training(path: Path, content: dict[str, Any], parts: Parts) -> Count
         parts.agent.load_state_dict(content["agent"])
         if parts.inverse is not None:
             parts.inverse.load_state_dict(content["inverse"])
+        for stream in parts.streams:
+            stream.load_state_dict(content["streams"][stream.name])
         _unpack_envs(parts.envs, content["envs"])
         _unpack_envs(parts.test_envs, content["test_envs"])
         _unpack_rng(parts.sampler.rng, content["sampler_rng"])

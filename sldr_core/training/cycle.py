@@ -42,11 +42,13 @@ def learn(parts: Parts, updates_before: int, check: Check) -> dict[str, float]:
     loop = parts.config.loop
     totals: dict[str, Tensor] = {}
     for update in range(updates_before + 1, updates_before + loop.updates_per_cycle + 1):
-        batch = _on_device(parts.sampler.sample(loop.batch_size), parts.compute.device)
+        batch = _on_device(parts.sampler.sample(loop.batch_size, update - 1), parts.compute.device)
         rewards = torch.stack([stream.reward(batch) for stream in parts.streams])
         metrics = parts.agent.update(batch, rewards)
         if parts.inverse is not None:
             metrics.update(parts.inverse.update(batch))
+        for stream in parts.streams:
+            metrics.update(stream.learn(batch))
         if update % loop.updates_per_sync == 0:
             parts.agent.sync_targets()
         for name, value in metrics.items():
@@ -63,6 +65,8 @@ def _collect_and_store(parts: Parts, act: Act, check: Check) -> Collected:
     parts.agent.observe(obs, goal)
     if parts.inverse is not None:
         parts.inverse.observe(obs[:, :-1], obs[:, 1:])
+    for stream in parts.streams:
+        stream.observe(obs, goal)
     extra = {name: values for stream in parts.streams for name, values in stream.annotate(episodes.obs).items()}
     parts.buffer.store(replace(episodes, extra=extra))
     return collected

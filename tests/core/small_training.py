@@ -30,6 +30,8 @@ TINY = {
     },
     "agent": {"hidden_sizes": [8, 8]},
     "replay": {"capacity": 160},
+    "rnd": {"outputs": 8},
+    "curriculum": {"group_size": 8, "candidates": 6, "kept": 3},
 }
 """Laid over the smoke preset: four cycles in a fraction of a second; the replay wraps around after nine."""
 

@@ -22,7 +22,7 @@ from small_training import (
     tiny_config,
 )
 
-from sldr_core.config import TrainConfig, config_to_dict
+from sldr_core.config import METHODS, TrainConfig, config_to_dict
 from sldr_core.records import Step
 from sldr_core.training import DirectoryRecorder, StopReason, train
 
@@ -77,8 +77,9 @@ def test_a_stopped_training_goes_on_to_the_same_bits(reason: StopReason, uninter
     assert_same_training(tmp_path, uninterrupted)
 
 
-def test_a_stopped_manipulation_goes_on_to_the_same_bits(tmp_path: Path) -> None:
-    config, models = tiny_config("manipulation", "her-sldr"), (save_untrained_model(tmp_path / "model.pt"),)
+@pytest.mark.parametrize("method", METHODS)
+def test_a_stopped_manipulation_goes_on_to_the_same_bits(method: str, tmp_path: Path) -> None:
+    config, models = tiny_config("manipulation", method), (save_untrained_model(tmp_path / "model.pt"),)
     run(config, tmp_path / "whole", models)
 
     train(config, StoppingRecorder(tmp_path / "parts", 1, "shutdown"), models)

@@ -634,6 +634,11 @@ export interface components {
             name: string;
             /** Needs Locomotion */
             needs_locomotion: boolean;
+            /**
+             * Phases
+             * @description The phases it can train.
+             */
+            phases: ("locomotion" | "manipulation")[];
             /** Summary */
             summary: string;
             /** Title */
