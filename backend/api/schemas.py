@@ -54,6 +54,7 @@ class Method(Strict):
     title: str
     summary: str
     needs_locomotion: bool
+    phases: list[Phase] = Field(description="The phases it can train.")
 
 
 class PresetSummary(Strict):

@@ -455,6 +455,11 @@ export interface components {
             name: string;
             /** Needs Locomotion */
             needs_locomotion: boolean;
+            /**
+             * Phases
+             * @description The phases it can train.
+             */
+            phases: ("locomotion" | "manipulation")[];
             /** Summary */
             summary: string;
             /** Title */

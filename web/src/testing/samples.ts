@@ -52,8 +52,27 @@ export const CHOICES: Choices = {
   ],
   phases: ['locomotion', 'manipulation'],
   methods: [
-    { name: 'her', title: 'HER-Sparse', summary: 'Hindsight.', needs_locomotion: false },
-    { name: 'her-sldr', title: 'HER-Sparse+SLDR', summary: 'Hindsight and SLDR.', needs_locomotion: true },
+    {
+      name: 'her',
+      title: 'HER-Sparse',
+      summary: 'Hindsight.',
+      needs_locomotion: false,
+      phases: ['locomotion', 'manipulation'],
+    },
+    {
+      name: 'her-dense',
+      title: 'HER-Dense',
+      summary: 'Distances.',
+      needs_locomotion: false,
+      phases: ['manipulation'],
+    },
+    {
+      name: 'her-sldr',
+      title: 'HER-Sparse+SLDR',
+      summary: 'Hindsight and SLDR.',
+      needs_locomotion: true,
+      phases: ['manipulation'],
+    },
   ],
   presets: [
     { name: 'paper', summary: 'As in the paper.' },
