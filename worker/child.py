@@ -22,13 +22,14 @@ from typing import IO, Protocol
 from backend.store.attempts import note_host
 from backend.store.claims import Claim, claim_from_json
 from backend.store.database import Database, open_database
-from backend.store.errors import StaleFence
+from backend.store.errors import StaleFence, StoreUnavailable
 from backend.store.outcomes import Cancelled, Failed, HandedBack, Outcome, Paused, Succeeded
 from backend.store.queue import finish
 from backend.store.settings import Settings, load_settings
 from sldr_core.config import TrainConfig
 from sldr_core.errors import SldrError
 from sldr_core.records import Step
+from worker.claimed_files import bring_claimed_run, send_log
 from worker.locomotion_files import find_locomotion_models
 from worker.mortality import end_with_parent
 from worker.patience import insist
@@ -40,6 +41,8 @@ LOCK_PATIENCE_S = 10.0
 """How long an earlier attempt's process may take to let go of the run's directory [s]."""
 LOCK_RETRY_S = 10.0
 """How long a run waits in the queue when it did not [s]."""
+STORE_RETRY_S = 60.0
+"""How long a run waits in the queue when the place of its files could not be used for long [s]."""
 EXIT_ORPHANED = 70
 EXIT_STALE = 71
 
@@ -93,9 +96,9 @@ def run_child(train: Train, write_curves: WriteCurves | None = None) -> int:
     requests = StopRequests(sys.stdin)
     settings = load_settings()
     db = insist(lambda: open_database(settings))
-    log.info("Attempt %d of run %s begins in process %d.", claim.attempt, claim.run_id, os.getpid())
     try:
         outcome = _attempt(db, settings, claim, requests, train, write_curves)
+        send_log(db, settings, claim)
         insist(lambda: finish(db, claim, outcome))
     except StaleFence as err:
         log.error("%s", err)
@@ -139,6 +142,8 @@ def _attempt(
         with _hold_directory(settings.run_directory(claim.run_id)):
             # Only now is it sure that nobody else writes there; an attempt that is over must not begin.
             insist(lambda: note_host(db, claim, socket.gethostname()))
+            bring_claimed_run(db, settings, claim)
+            log.info("Attempt %d of run %s begins in process %d.", claim.attempt, claim.run_id, os.getpid())
             models = insist(lambda: find_locomotion_models(db, settings, claim))
             with StoreRecorder(db, settings, claim, requests.newest, write_curves) as recorder:
                 result = train(claim.config, recorder, models, claim.gate_waived)
@@ -146,6 +151,9 @@ def _attempt(
         return HandedBack(str(err), LOCK_RETRY_S)
     except StaleFence:
         raise
+    except StoreUnavailable as err:
+        log.error("%s", err)
+        return HandedBack(f"{err} It goes on from its checkpoint.", STORE_RETRY_S)
     except SldrError as err:
         log.error("%s", err)
         return Failed(str(err), retry=False)

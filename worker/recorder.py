@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import logging
 import math
 import time
@@ -12,14 +11,15 @@ from typing import Protocol
 
 from backend.store.claims import Claim
 from backend.store.database import Database
-from backend.store.errors import StaleFence
-from backend.store.files import register_file
+from backend.store.errors import StaleFence, StoreUnavailable
 from backend.store.metrics import MetricPoint, read_metrics
 from backend.store.outcomes import CHECKPOINT_KIND
 from backend.store.progress import Progress, find_progress
 from backend.store.settings import Settings
+from backend.store.storage import FileStorage
 from sldr_core.errors import TrainingDiverged
 from sldr_core.records import Step
+from worker.file_keeper import FileKeeper
 from worker.metric_writer import MetricWriter
 from worker.patience import insist
 from worker.words import StopWord
@@ -53,10 +53,10 @@ class StoreRecorder:
         write_curves: WriteCurves | None = None,
     ) -> None:
         self._db = db
-        self._home = settings.home
         self._directory = settings.run_directory(claim.run_id)
         self._directory.mkdir(parents=True, exist_ok=True)
         self._claim = claim
+        self._keeper = FileKeeper(db, FileStorage(settings), claim)
         self._stop_requested = stop_requested
         self._write_curves = write_curves
         self._curves_saved_at = time.monotonic()
@@ -93,10 +93,11 @@ class StoreRecorder:
                 self._save_curves()
 
     def save_file(self, name: str, kind: str, write: Callable[[Path], None]) -> Path:
-        """Write a file of the run safely, and register it with size and checksum.
+        """Write a file of the run safely, and keep it where other machines find it, with size and checksum.
 
         Raises:
             StaleFence: the run was given to another worker.
+            StoreUnavailable: the place that machines share files through could not be used for minutes.
         """
         # PyTorch comes with this import; a training that saves files has it loaded anyway.
         from sldr_core.training import write_atomically
@@ -106,9 +107,7 @@ class StoreRecorder:
             # Another attempt goes on after the checkpoint, so what was logged before it must not be lost with this one.
             self._writer.flush()
         path = write_atomically(self._directory / name, write)
-        size, digest = path.stat().st_size, checksum(path)
-        place = str(path.relative_to(self._home))
-        insist(lambda: register_file(self._db, self._claim, name, kind, place, size, digest))
+        self._keeper.keep(name, kind, path)
         self._writer.check()
         return path
 
@@ -151,7 +150,7 @@ class StoreRecorder:
         name = f"curves-attempt-{self._claim.attempt}.rrd"
         try:
             self.save_file(name, "recording", lambda path: write_curves(path, title, steps, values))
-        except StaleFence:
+        except (StaleFence, StoreUnavailable):
             raise
         except Exception:
             # A training must not fail for a copy of what is in the store.
@@ -172,9 +171,3 @@ def read_curves(db: Database, run_id: str) -> tuple[list[Step], Curves]:
         for name, column in curves.items():
             column.extend(page.values.get(name, [None] * len(page.step)))
     return steps, curves
-
-
-def checksum(path: Path) -> str:
-    """Return the sha256 of a file in hex."""
-    with path.open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()

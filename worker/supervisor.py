@@ -84,6 +84,7 @@ class Supervisor:
         self._attempts: dict[str, Attempt] = {}
         self._stops_asked = 0
         self._reap_at = 0.0
+        self._is_cut_off = False
 
     def ask_to_stop(self) -> None:
         """Let every child checkpoint, hand all runs back, then end `run`. Asked again: without checkpoints.
@@ -125,16 +126,19 @@ class Supervisor:
 
     def _take_turn(self, worker_id: str) -> None:
         self._presence.note_turn()
+        self._kill_overdue()
         try:
             self._report_ended()
             self._pass_on_requests()
-            self._kill_overdue()
             self._reap()
             if not self._stops_asked:
                 self._fill_slots(worker_id)
+            self._is_cut_off = False
         except StoreUnavailable as err:
             self._presence.note_outage()
-            log.warning("Trying again: %s", err)
+            if not self._is_cut_off:
+                log.warning("Trying again and again: %s", err)
+                self._is_cut_off = True
 
     def _held(self) -> list[Claim]:
         return [attempt.claim for attempt in list(self._attempts.values())]
@@ -177,15 +181,28 @@ class Supervisor:
             finish(self._db, claimed, outcome, self._timing.retry_backoff_s)
         except StaleFence:
             log.debug("Run %s: its child has reported already, or it was taken away.", claimed.run_id)
+        except StoreUnavailable as err:
+            if self._stops_asked < 2:
+                raise
+            log.warning("Run %s: its end could not be told, so its lease will run out: %s", claimed.run_id, err)
 
     def _pass_on_requests(self) -> None:
         for attempt in self._attempts.values():
-            reply = read_requests(self._db, attempt.claim)
+            reply = self._read_requests(attempt.claim)
             word = self._wanted_of(reply)
             if word is not None:
                 attempt.ask(word, self._grace_for(word))
             if reply.idle_s > self._timing.hang_s and self._presence.is_steady:
                 attempt.give_up_hung(reply.idle_s)
+
+    def _read_requests(self, claimed: Claim) -> HeartbeatReply:
+        """Ask what people want of an attempt; a store that cannot answer must not keep a worker from ending."""
+        try:
+            return read_requests(self._db, claimed)
+        except StoreUnavailable:
+            if not self._stops_asked:
+                raise
+            return HeartbeatReply(alive=True, cancel=False, pause=False)
 
     def _wanted_of(self, reply: HeartbeatReply) -> StopWord | None:
         if reply.cancel:

@@ -1,6 +1,19 @@
 """What can be asked for: tasks, methods and the settings of one training."""
 
-from sldr_core.config.methods import LOCOMOTION_METHOD, METHODS, MethodSpec, find_method
+from sldr_core.config.method_settings import CurriculumConfig, RndConfig, SldrConfig, SldrReward
+from sldr_core.config.methods import (
+    LOCOMOTION_METHOD,
+    METHODS,
+    SWITCHES,
+    Auxiliary,
+    MethodSpec,
+    RewardKind,
+    SamplerName,
+    Switch,
+    find_method,
+    method_switches,
+    stream_names,
+)
 from sldr_core.config.tasks import (
     LOCOMOTION_TASKS,
     PHASES,
@@ -29,7 +42,6 @@ from sldr_core.config.train import (
     ReplayConfig,
     Robot,
     SceneConfig,
-    SldrConfig,
     TrainConfig,
     config_from_dict,
     config_hash,
@@ -42,9 +54,12 @@ __all__ = [
     "LOCOMOTION_TASKS",
     "METHODS",
     "PHASES",
+    "SWITCHES",
     "TASKS",
     "AgentConfig",
+    "Auxiliary",
     "ComputeConfig",
+    "CurriculumConfig",
     "ExplorationConfig",
     "FetchScene",
     "HandScene",
@@ -56,12 +71,17 @@ __all__ = [
     "PoseGoal",
     "PositionGoals",
     "ReplayConfig",
+    "RewardKind",
+    "RndConfig",
     "Robot",
+    "SamplerName",
     "Scene",
     "SceneConfig",
     "Shape",
     "SldrConfig",
+    "SldrReward",
     "StackScene",
+    "Switch",
     "TableScene",
     "TaskSpec",
     "TrainConfig",
@@ -73,4 +93,6 @@ __all__ = [
     "config_to_dict",
     "find_method",
     "find_task",
+    "method_switches",
+    "stream_names",
 ]

@@ -9,15 +9,13 @@ from typing import Annotated, Any, Literal
 from pydantic import ConfigDict, Field, TypeAdapter, ValidationError, model_validator
 from pydantic.dataclasses import dataclass
 
+from sldr_core.config.method_settings import CurriculumConfig, RndConfig, SldrConfig
 from sldr_core.config.methods import METHODS, MethodSpec, find_method
+from sldr_core.config.numbers import Positive, Rate, Return, Share, Weight
 from sldr_core.config.tasks import LOCOMOTION_TASKS, TASKS, Phase, TaskSpec, Variant, find_task
 from sldr_core.errors import InvalidConfig, UnknownName
 
 _FROZEN = ConfigDict(extra="forbid", use_attribute_docstrings=True, allow_inf_nan=False)
-
-Positive = Annotated[int, Field(gt=0)]
-Share = Annotated[float, Field(ge=0.0, le=1.0)]
-Rate = Annotated[float, Field(gt=0.0, lt=1.0)]
 
 Robot = Literal["auto", "absent", "still", "random"]
 """What the robot does while the object learns."""
@@ -58,10 +56,14 @@ class AgentConfig:
     learning_rate: Rate = 1e-3
     """Step size of Adam for every network."""
     gamma: Rate = 0.98
-    """Discount of future rewards; targets are clipped to [-1 / (1 - gamma), 0]."""
+    """Discount of future rewards."""
+    lowest_return: Return = 0.0
+    """Targets of the task's critic are clipped to this and 0 (0: to -1 / (1 - gamma), the least possible return)."""
+    lowest_auxiliary_return: Return = 0.0
+    """The same for the critics of all other rewards (0: as the task's)."""
     target_rate: Annotated[float, Field(gt=0.0, le=1.0)] = 0.05
     """Share of the online weights that enters the target networks at each sync (1 - polyak)."""
-    action_l2: Annotated[float, Field(ge=0.0)] = 1.0
+    action_l2: Weight = 1.0
     """Weight of the mean squared action in the actor's loss."""
 
 
@@ -71,7 +73,7 @@ class ExplorationConfig:
 
     random_action_probability: Share = 0.3
     """Probability of a uniformly random action at each step."""
-    noise_std: Annotated[float, Field(ge=0.0)] = 0.2
+    noise_std: Weight = 0.2
     """Standard deviation of the Gaussian noise on the other actions."""
 
 
@@ -85,18 +87,6 @@ class ReplayConfig:
     """Share of sampled transitions whose goal is replaced by one achieved later in the episode."""
     still_weight: Annotated[float, Field(gt=0.0, le=1.0)] = 1.0
     """How often an episode in which nothing moved is drawn, against one in which something did (1: alike)."""
-
-
-@dataclass(frozen=True, config=_FROZEN)
-class SldrConfig:
-    """The reward for moving the object as it would move itself (paper Eq. 8)."""
-
-    reward: Literal["advantage"] = "advantage"
-    """`advantage`: difference of the object's Q values (Eq. 8)."""
-    weight: Annotated[float, Field(ge=0.0)] = 1.0
-    """Weight of the stream's critic in the actor's loss."""
-    gate: Share = 0.95
-    """Test success that a locomotion model must have been measured at before its reward is used."""
 
 
 @dataclass(frozen=True, config=_FROZEN)
@@ -146,6 +136,10 @@ class TrainConfig:
     """What is remembered, and how it is drawn."""
     sldr: SldrConfig = Field(default_factory=SldrConfig)
     """The reward for moving the object as it would move itself."""
+    rnd: RndConfig = Field(default_factory=RndConfig)
+    """The reward for states that were seldom seen."""
+    curriculum: CurriculumConfig = Field(default_factory=CurriculumConfig)
+    """Which of more candidates an update learns from."""
     scene: SceneConfig = Field(default_factory=SceneConfig)
     """What stands in the simulated scene."""
     compute: ComputeConfig = Field(default_factory=ComputeConfig)
@@ -156,8 +150,10 @@ class TrainConfig:
         self._check_task()
         if self.method not in METHODS:
             raise ValueError(f"method: {UnknownName('method', self.method, METHODS)}")
-        if self.phase == "locomotion" and self.method_spec.needs_locomotion:
+        if self.phase not in self.method_spec.phases:
             raise ValueError("method: a locomotion run learns from the sparse reward alone; use 'her'.")
+        if self.method_spec.sampler == "curriculum":
+            self._check_curriculum()
         cycle = self.loop.episodes_per_cycle * self.task_spec.episode_length
         if self.replay.capacity < 2 * cycle:
             raise ValueError(
@@ -175,6 +171,19 @@ class TrainConfig:
             raise ValueError(f"task: the objects of {self.task} learn in {' and '.join(learnt_in)}; choose that.")
         if self.task_spec.family == "hand" and self.scene.locomotion_robot == "absent":
             raise ValueError("scene.locomotion_robot: the object lies in the hand; choose 'auto', 'still' or 'random'.")
+
+    def _check_curriculum(self) -> None:
+        given, batch = self.curriculum, self.loop.batch_size
+        if batch % given.group_size != 0:
+            raise ValueError(
+                f"loop.batch_size: {batch} is no whole number of groups of {given.group_size}; choose a multiple, "
+                "or change curriculum.group_size."
+            )
+        if given.kept + given.examined - 1 > given.candidates:
+            raise ValueError(
+                f"curriculum.kept: the last of {given.kept} picks could not compare {given.examined} of what is left "
+                f"of {given.candidates} candidates; lower it, or raise curriculum.candidates."
+            )
 
     @property
     def task_spec(self) -> TaskSpec:

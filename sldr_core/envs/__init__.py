@@ -11,10 +11,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from sldr_core.config import PHASES, Phase, Robot, TaskSpec, Variant, find_task
+from sldr_core.config import PHASES, Phase, RewardKind, Robot, TaskSpec, Variant, find_task
 from sldr_core.envs.envs import Envs, Observation
 from sldr_core.envs.families import EnvOrder, build_fetch_env, build_hand_env, build_stack_env, build_tuple_env
 from sldr_core.envs.parts import EnvParts
+from sldr_core.envs.rewards import REWARDS
 from sldr_core.errors import InvalidConfig, UnknownName
 
 __all__ = ["Envs", "Observation", "make_envs"]
@@ -37,6 +38,8 @@ def make_envs(
     robot: Robot = "auto",
     testing: bool = False,
     variant: Variant = "ours",
+    *,
+    reward: RewardKind = "sparse",
 ) -> Envs:
     """Build the environments of a task's phase.
 
@@ -49,17 +52,20 @@ def make_envs(
         robot: what the robot does in locomotion; of no meaning in manipulation.
         testing: whether goals are drawn as in tests, where a task has such a difference.
         variant: whose numbers the task has.
+        reward: the reward of a step; success is the same with both.
 
     Raises:
-        UnknownName: no such task or phase.
+        UnknownName: no such task, phase or reward.
         InvalidConfig: the task has no such phase, or no such robot.
     """
     spec = find_task(task, variant)
     if phase not in PHASES:
         raise UnknownName("phase", phase, PHASES)
+    if reward not in REWARDS:
+        raise UnknownName("reward", reward, REWARDS)
     _check(spec, phase, robot)
     parts = FAMILIES[spec.family](EnvOrder(spec, phase, robot, num_envs, threads, testing))
-    return Envs(spec=spec, phase=phase, parts=parts, bystander_moves=robot == "random", seed=seed)
+    return Envs(spec=spec, phase=phase, parts=parts, bystander_moves=robot == "random", reward=reward, seed=seed)
 
 
 def _check(spec: TaskSpec, phase: Phase, robot: Robot) -> None:

@@ -9,9 +9,9 @@ import mujoco
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from sldr_core.config import Phase, TaskSpec
+from sldr_core.config import Phase, RewardKind, TaskSpec
 from sldr_core.envs.parts import EnvParts
-from sldr_core.envs.rewards import is_success, sparse_reward
+from sldr_core.envs.rewards import REWARDS, goal_gaps, is_success
 from sldr_core.envs.scenes.welds import SUBSTEPS
 from sldr_core.envs.simulation import Array, Ids
 
@@ -42,6 +42,7 @@ class Envs:
         phase: Phase,
         parts: EnvParts,
         bystander_moves: bool,
+        reward: RewardKind,
         seed: int,
     ) -> None:
         self.spec = spec
@@ -57,6 +58,7 @@ class Envs:
         self._actor, self._bystander, self._observer = parts.actor, parts.bystander, parts.observer
         self._starts, self._hold, self._marker = parts.starts, parts.hold, parts.marker
         self._bystander_moves = bystander_moves
+        self._reward = REWARDS[reward]
         self._goal = np.zeros((self.num_envs, spec.goal_size))
         self.reseed(seed)
         self.reset()
@@ -100,12 +102,16 @@ class Envs:
         return Observation(self._observer.observe(), self._observer.achieved(), self._goal.copy())
 
     def reward(self, achieved: NDArray[np.floating], goal: NDArray[np.floating]) -> NDArray[np.float32]:
-        """Return the sparse reward of achieved and desired goals `[..., G]`, as `[...]`."""
-        return sparse_reward(self.spec.goal, achieved, goal)
+        """Return the reward, sparse or dense as ordered, of achieved and desired goals `[..., G]`, as `[...]`."""
+        return self._reward(self.spec.goal, achieved, goal)
 
     def success(self, achieved: NDArray[np.floating], goal: NDArray[np.floating]) -> NDArray[np.bool_]:
         """Tell which achieved goals `[..., G]` count as success, as `[...]`."""
         return is_success(self.spec.goal, achieved, goal)
+
+    def gaps(self, goals: NDArray[np.floating], others: NDArray[np.floating]) -> NDArray[np.float64]:
+        """Return distances `[..., M, N]` of goals `[..., M, G]` from others `[..., N, G]`, by what the task scores."""
+        return goal_gaps(self.spec.goal, goals, others)
 
     def set_goal(self, goal: ArrayLike, ids: ArrayLike | None = None) -> None:
         """Replace the goals of simulations `ids` by `[len(ids), G]`, in the order of `ids`, or by one `[G]`."""
@@ -115,18 +121,16 @@ class Envs:
             self._marker.show(chosen, self._goal[chosen])
 
     def state(self) -> dict[str, Any]:
-        """Return everything that decides what comes next: simulations, goals and generators."""
+        """Return everything that decides what comes next, at any moment: simulations, goals and generators."""
         return {
-            "simulation": self.simulation.state.copy(),
+            "simulation": self.simulation.snapshot(),
             "goal": self._goal.copy(),
             "rngs": [rng.bit_generator.state for rng in self._rngs],
         }
 
     def restore(self, state: dict[str, Any]) -> None:
         """Continue from what `state` returned, to the last bit."""
-        self.simulation.state[:] = state["simulation"]
-        self.simulation.forward()
-        self.simulation.state[:] = state["simulation"]
+        self.simulation.restore(state["simulation"])
         self._goal[:] = state["goal"]
         for rng, rng_state in zip(self._rngs, state["rngs"], strict=True):
             rng.bit_generator.state = rng_state

@@ -1,25 +1,36 @@
-"""Sparse rewards and success as pure functions of any batch shape, in the records of `sldr_core.config`."""
+"""Rewards, success and distances as pure functions of any batch shape, in the records of `sldr_core.config`."""
 
 from __future__ import annotations
+
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sldr_core.config import PoseGoal, PositionGoals
+from sldr_core.config import PoseGoal, PositionGoals, RewardKind
 from sldr_core.envs.rotations import angle_between, angle_between_axes
 
 Goals = NDArray[np.floating]
+
+Criterion = PositionGoals | PoseGoal
+"""What counts as success."""
+
+RADIANS_PER_METRE = 10.0
+"""Weight of a pose's distance against its angle in the dense reward, as in the reference [rad/m]."""
+
+POSITION_SIZE = 3
+"""Entries of a pose that are its position; a quaternion follows."""
 
 
 def goal_distance(criterion: PositionGoals, achieved: Goals, goal: Goals) -> NDArray[np.floating]:
     """Return the largest distance [m] of an object from its goal, or the joint norm, for goals `[..., G]`."""
     objects = 1 if criterion.joint_norm else criterion.objects
     apart = (achieved - goal).reshape(*np.shape(achieved)[:-1], objects, -1)
-    return np.sqrt(np.square(apart).sum(axis=-1)).max(axis=-1)
+    return _length(apart).max(axis=-1)
 
 
-def sparse_reward(criterion: PositionGoals | PoseGoal, achieved: Goals, goal: Goals) -> NDArray[np.float32]:
-    """Return 0 where the goal is reached, else -1 (paper §3), for goals `[..., G]`.
+def sparse_reward(criterion: Criterion, achieved: Goals, goal: Goals) -> NDArray[np.float32]:
+    """Return 0 where the goal is reached, else -1 (paper Eq. 1), for goals `[..., G]`.
 
     As in the reference, a position that is off by exactly the threshold is rewarded but no success.
     """
@@ -28,15 +39,73 @@ def sparse_reward(criterion: PositionGoals | PoseGoal, achieved: Goals, goal: Go
     return is_success(criterion, achieved, goal).astype(np.float32) - np.float32(1.0)
 
 
-def is_success(criterion: PositionGoals | PoseGoal, achieved: Goals, goal: Goals) -> NDArray[np.bool_]:
+def dense_reward(criterion: Criterion, achieved: Goals, goal: Goals) -> NDArray[np.float32]:
+    """Return minus how far goals `[..., G]` are: one norm over all positions [m], or 10 per metre plus the angle.
+
+    What a task does not score is left out of a pose, and angles are those of `is_success`.
+    """
+    if isinstance(criterion, PositionGoals):
+        return -_length(achieved - goal).astype(np.float32)
+    far = np.zeros(np.shape(achieved)[:-1])
+    if criterion.distance is not None:
+        far += RADIANS_PER_METRE * _pose_distance(achieved, goal)
+    if criterion.angle is not None:
+        far += _pose_angle(criterion, achieved, goal)
+    return -far.astype(np.float32)
+
+
+REWARDS: dict[RewardKind, Callable[[Criterion, Goals, Goals], NDArray[np.float32]]] = {
+    "sparse": sparse_reward,
+    "dense": dense_reward,
+}
+"""The environment's rewards by their names."""
+
+
+def is_success(criterion: Criterion, achieved: Goals, goal: Goals) -> NDArray[np.bool_]:
     """Tell where the goal is reached, for goals `[..., G]`."""
     if isinstance(criterion, PositionGoals):
         return goal_distance(criterion, achieved, goal) < criterion.distance
     reached = np.ones(np.shape(achieved)[:-1], dtype=np.bool_)
     if criterion.distance is not None:
-        apart = achieved[..., :3] - goal[..., :3]
-        reached &= np.sqrt(np.square(apart).sum(axis=-1)) < criterion.distance
+        reached &= _pose_distance(achieved, goal) < criterion.distance
     if criterion.angle is not None:
-        angle = angle_between_axes if criterion.ignore_z else angle_between
-        reached &= angle(achieved[..., 3:], goal[..., 3:]) < criterion.angle
+        reached &= _pose_angle(criterion, achieved, goal) < criterion.angle
     return reached
+
+
+def goal_gaps(criterion: Criterion, goals: Goals, others: Goals) -> NDArray[np.float64]:
+    """Return Euclidean distances `[..., M, N]` of goals `[..., M, G]` from others `[..., N, G]`.
+
+    Of a pose only what is scored counts, and a quaternion is as near as the nearer of its two signs.
+    """
+    a, b = (np.asarray(values, dtype=np.float64) for values in (goals, others))
+    if isinstance(criterion, PositionGoals):
+        return np.sqrt(_squared_gaps(a, b, signless=False))
+    squared = np.zeros((*a.shape[:-1], b.shape[-2]))
+    if criterion.distance is not None:
+        squared += _squared_gaps(a[..., :POSITION_SIZE], b[..., :POSITION_SIZE], signless=False)
+    if criterion.angle is not None:
+        squared += _squared_gaps(a[..., POSITION_SIZE:], b[..., POSITION_SIZE:], signless=True)
+    return np.sqrt(squared)
+
+
+def _length(vectors: Goals) -> NDArray[np.floating]:
+    return np.sqrt(np.square(vectors).sum(axis=-1))
+
+
+def _pose_distance(achieved: Goals, goal: Goals) -> NDArray[np.floating]:
+    return _length(achieved[..., :POSITION_SIZE] - goal[..., :POSITION_SIZE])
+
+
+def _pose_angle(criterion: PoseGoal, achieved: Goals, goal: Goals) -> NDArray[np.floating]:
+    angle = angle_between_axes if criterion.ignore_z else angle_between
+    return angle(achieved[..., POSITION_SIZE:], goal[..., POSITION_SIZE:])
+
+
+def _squared_gaps(a: NDArray[np.float64], b: NDArray[np.float64], signless: bool) -> NDArray[np.float64]:
+    """Return |a - b|^2 of all pairs through their products; with `signless`, the lesser of |a - b|^2 and |a + b|^2."""
+    product = a @ np.swapaxes(b, -1, -2)
+    if signless:
+        product = np.abs(product)
+    sizes = np.square(a).sum(axis=-1)[..., :, None] + np.square(b).sum(axis=-1)[..., None, :]
+    return np.maximum(sizes - 2.0 * product, 0.0)

@@ -1,11 +1,10 @@
-"""Hindsight experience replay: which transitions are drawn, and which goals they get (paper §3.2).
+"""Hindsight experience replay: which transitions are drawn, and which goals they get (paper §3.3).
 
 `B` batch, `T` steps of an episode, `D`, `G`, `A` as in `sldr_core.records`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,9 +12,7 @@ from numpy.typing import NDArray
 
 from sldr_core.records import Floats
 from sldr_core.replay.buffer import ReplayBuffer
-
-Reward = Callable[[Floats, Floats], Floats]
-"""Return the environment's reward `[B]` of achieved and desired goals `[B, G]`."""
+from sldr_core.replay.sampler import Reward, Sample, SamplerOrder
 
 
 @dataclass(frozen=True)
@@ -29,23 +26,9 @@ class Draw:
     goal_step: NDArray[np.int64]
     """Step whose achieved goal becomes the goal, in step+1..T; 0 where the goal stays the original, `[B]`."""
 
-
-@dataclass(frozen=True)
-class Sample:
-    """A batch of transitions under the goals they were given."""
-
-    obs: Floats
-    """`[B, D]`."""
-    next_obs: Floats
-    """`[B, D]`."""
-    goal: Floats
-    """`[B, G]`, relabelled or original."""
-    action: Floats
-    """`[B, A]`."""
-    reward: Floats
-    """`[B]`, of the environment, under `goal`."""
-    extra: dict[str, Floats]
-    """Values stored with each transition, `[B, ...]`."""
+    def choose(self, chosen: NDArray[np.int64]) -> Draw:
+        """Return these of its transitions alone."""
+        return Draw(self.episode[chosen], self.step[chosen], self.goal_step[chosen])
 
 
 def draw_steps(
@@ -123,17 +106,33 @@ class HindsightSampler:
         step, goal_step = draw_steps(self.rng, batch_size, self._length, self._relabel_probability)
         return Draw(self._buffer.slot_of(rank), step, goal_step)
 
-    def sample(self, batch_size: int) -> Sample:
-        """Draw a batch of transitions."""
-        return read_sample(self._buffer, self.draw(batch_size), self._reward)
+    def read(self, draw: Draw) -> Sample:
+        """Read what was drawn."""
+        return read_sample(self._buffer, draw, self._reward)
+
+    def sample(self, batch_size: int, update: int) -> Sample:
+        """Draw a batch of transitions, in the same way in every update."""
+        return self.read(self.draw(batch_size))
+
+
+def build_hindsight(order: SamplerOrder) -> HindsightSampler:
+    """Build the sampler that a config asks for."""
+    replay = order.config.replay
+    return HindsightSampler(order.buffer, order.reward, replay.relabel_probability, replay.still_weight, order.rng)
+
+
+def drawn_goals(buffer: ReplayBuffer, draw: Draw) -> Floats:
+    """Return the goals that a draw gives its transitions, `[B, G]`."""
+    relabelled = (draw.goal_step > 0)[:, None]
+    later = buffer.arrays["achieved"][draw.episode, draw.goal_step]
+    return np.where(relabelled, later, buffer.arrays["goal"][draw.episode])
 
 
 def read_sample(buffer: ReplayBuffer, draw: Draw, reward: Reward) -> Sample:
     """Read drawn transitions, each with the goal that its draw gives it and the reward under that goal."""
     arrays = buffer.arrays
     episode, step = draw.episode, draw.step
-    relabelled = (draw.goal_step > 0)[:, None]
-    goal = np.where(relabelled, arrays["achieved"][episode, draw.goal_step], arrays["goal"][episode])
+    goal = drawn_goals(buffer, draw)
     known = ("obs", "achieved", "goal", "action", "moved")
     return Sample(
         obs=arrays["obs"][episode, step],

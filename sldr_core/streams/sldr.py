@@ -1,38 +1,72 @@
-"""Simulated locomotion demonstration rewards (paper Eq. 8).
+"""Simulated locomotion demonstration rewards (paper Eq. 7 and 8).
 
-The robot is rewarded for making the object do what the object itself would do: q = Q(z, w, g) - Q(z, u, g) with
-w = I(z, z') what the robot made it do and u = nu(z, g) what it wanted. `B` batch, `N` episodes, `T` steps.
+The robot is rewarded for making the object do what the object itself would do, by comparing w = I(z, z'), what the
+robot made it do, with u = nu(z, g), what it wanted.
+`B` batch, `N` episodes, `T` steps, `F` features, `U` object action.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import torch
 from torch import Tensor
 
-from sldr_core.nets.locomotion_model import LocomotionModel
+from sldr_core.config import SldrConfig, SldrReward
+from sldr_core.nets.locomotion_model import LocomotionModel, LocomotionNets
 from sldr_core.nets.transitions import Transitions
-from sldr_core.nets.views import PartView
+from sldr_core.nets.views import PartView, part_view
 from sldr_core.records import Floats
+from sldr_core.streams.stream import FixedStream, StreamOrder
 
 
-class SldrStream:
-    """Reward a transition by the advantage of the induced object action over the wanted one."""
+def advantage(nets: LocomotionNets, features: Tensor, induced: Tensor) -> Tensor:
+    """Return q = Q(z, w, g) - Q(z, u, g) (Eq. 8), `[B]`.
+
+    Args:
+        nets: the object's networks.
+        features: what the object sees, `[B, F]`.
+        induced: w, `[B, U]`.
+    """
+    both = torch.cat([induced, nets.action(features)])
+    value_induced, value_wanted = nets.value(features.repeat(2, 1), both).float().chunk(2)
+    return value_induced - value_wanted
+
+
+def action_distance(nets: LocomotionNets, features: Tensor, induced: Tensor) -> Tensor:
+    """Return q = -||w - u||^2 (Eq. 7), `[B]`; the arguments are those of `advantage`."""
+    return -(induced - nets.action(features).float()).square().sum(dim=-1)
+
+
+REWARDS: dict[SldrReward, Callable[[LocomotionNets, Tensor, Tensor], Tensor]] = {
+    "advantage": advantage,
+    "action_distance": action_distance,
+}
+"""The paper's rewards by their names."""
+
+
+class SldrStream(FixedStream):
+    """Reward a transition by how the induced object action compares with the wanted one.
+
+    Rewards are clipped to [-1, 0], the range of the sparse reward (paper §6.1): the targets of every critic are
+    clipped to the returns of such rewards. For Eq. 8 the upper limit cuts off the errors of Q, whose maximum is u.
+    Eq. 7 is never above 0 and has no lowest value, as w is not bounded; actions further apart than 1 are all alike.
+    """
 
     def __init__(
         self,
         part: str,
-        weight: float,
+        config: SldrConfig,
         model: LocomotionModel,
         view: PartView,
         device: torch.device,
         autocast: bool,
     ) -> None:
         self.name = f"sldr/{part}"
-        self.weight = weight
+        self.weight = config.weight
         self._stored = f"{self.name}/induced_action"
         self.stored_sizes: Mapping[str, int] = {self._stored: model.config.task_spec.object_action_size}
+        self._reward = REWARDS[config.reward]
         self._nets = model.nets.to(device)
         self._view = view
         self._device = device
@@ -50,7 +84,20 @@ class SldrStream:
         """Return q in [-1, 0], `[B]`, under the sampled goal."""
         with torch.autocast(self._device.type, dtype=torch.bfloat16, enabled=self._autocast):
             features = self._nets.features(self._view.object_state(batch.obs), self._view.part_goal(batch.goal))
-            wanted = self._nets.action(features)
-            both = torch.cat([batch.extra[self._stored], wanted])
-            value_induced, value_wanted = self._nets.value(features.repeat(2, 1), both).float().chunk(2)
-        return (value_induced - value_wanted).clamp(-1.0, 0.0)
+            return self._reward(self._nets, features, batch.extra[self._stored]).clamp(-1.0, 0.0)
+
+
+def build_sldr(order: StreamOrder) -> list[SldrStream]:
+    """Build one stream for each part of the task."""
+    task, config = order.config.task_spec, order.config.sldr
+    return [
+        SldrStream(
+            part.name,
+            config,
+            order.models[part.locomotion_task],
+            part_view(task, part),
+            order.device,
+            order.autocast,
+        )
+        for part in task.parts
+    ]

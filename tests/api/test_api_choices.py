@@ -8,7 +8,9 @@ from live_api import Service, problem_fields
 def test_choices_hold_tasks_methods_presets_and_the_schema_of_a_config(unused_service: Service):
     choices = unused_service.get("/api/choices")
     assert "FetchPush" in [task["name"] for task in choices["tasks"]]
-    assert {"her", "her-sldr"} <= {method["name"] for method in choices["methods"]}
+    phases = {method["name"]: method["phases"] for method in choices["methods"]}
+    assert list(phases) == ["ddpg", "her", "cher", "her-dense", "ddpg-sldr", "her-rnd", "her-sldr"]
+    assert [name for name in phases if "locomotion" in phases[name]] == ["ddpg", "her", "cher"]
     assert "quick" in [preset["name"] for preset in choices["presets"]]
     assert "loop" in choices["config_schema"]["properties"]
 

@@ -42,7 +42,7 @@ def sample_of(tmp_path: Path) -> Callable[[float], Sample]:
     actions = states[:, :-1]
     buffer.store(Episodes(states, states, number + ORIGINAL, actions, {"w": actions}))
     rng = np.random.default_rng(0)
-    return lambda share: HindsightSampler(buffer, reward_telling_its_input, share, 1.0, rng).sample(BATCH)
+    return lambda share: HindsightSampler(buffer, reward_telling_its_input, share, 1.0, rng).sample(BATCH, 0)
 
 
 def chi_square(observed: np.ndarray, expected: np.ndarray) -> float:

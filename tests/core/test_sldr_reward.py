@@ -1,4 +1,4 @@
-"""The SLDR reward against Eq. 8 written out in numpy, one transition at a time."""
+"""The SLDR rewards against Eq. 8 and Eq. 7 written out in numpy, one transition at a time."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import pytest
 import torch
 from small_training import collected_parts, save_untrained_model, tiny_config
 
-from sldr_core.config import find_task
+from sldr_core.config import SldrConfig, find_task
 from sldr_core.nets.locomotion_model import LocomotionModel, LocomotionNets, Measured
 from sldr_core.nets.transitions import Transitions
 from sldr_core.nets.views import part_view
@@ -37,7 +37,7 @@ def nets() -> LocomotionNets:
 @pytest.fixture
 def stream(nets: LocomotionNets) -> SldrStream:
     model = LocomotionModel(nets, tiny_config(), Measured(1.0, 1))
-    return SldrStream("object0", 1.0, model, OBJECT, CPU, autocast=False)
+    return SldrStream("object0", SldrConfig(), model, OBJECT, CPU, autocast=False)
 
 
 @pytest.fixture
@@ -51,24 +51,33 @@ def transitions(stream: SldrStream) -> Transitions:
 
 
 class PlainEquation:
-    """Eq. 8 for one transition: the only code shared with the library is the weights."""
+    """Eq. 8 and Eq. 7 for one transition: the only code shared with the library is the weights."""
 
     def __init__(self, nets: LocomotionNets) -> None:
         self._part = {name: value.numpy().astype(np.float64) for name, value in nets.state_dict().items()}
 
     def reward(self, obs: np.ndarray, next_obs: np.ndarray, goal: np.ndarray) -> float:
-        z = self._object(obs)
-        position, rotation, linear, angular = z[0:3], z[3:6], z[6:9], z[9:12]
-        seen = np.concatenate([position, goal - position, rotation, -linear, angular, goal])
-        features = self._normalised("normalizer", seen)
-        wanted = np.tanh(self._forward("policy", features))
-        induced = self.induced(obs, next_obs)
-        value = [self._forward("critic", np.concatenate([features, u]))[0] for u in (induced, wanted)]
+        features = self._seen(obs, goal)
+        actions = (self.induced(obs, next_obs), self._wanted(features))
+        value = [self._forward("critic", np.concatenate([features, u]))[0] for u in actions]
         return float(min(max(value[0] - value[1], -1.0), 0.0))
+
+    def distance_reward(self, obs: np.ndarray, next_obs: np.ndarray, goal: np.ndarray) -> float:
+        induced, wanted = self.induced(obs, next_obs), self._wanted(self._seen(obs, goal))
+        return max(-sum((w - u) ** 2 for w, u in zip(induced, wanted, strict=True)), -1.0)
 
     def induced(self, obs: np.ndarray, next_obs: np.ndarray) -> np.ndarray:
         z, next_z = self._object(obs), self._object(next_obs)
         return self._forward("inverse", self._normalised("transition_normalizer", np.concatenate([z, next_z - z])))
+
+    def _seen(self, obs: np.ndarray, goal: np.ndarray) -> np.ndarray:
+        z = self._object(obs)
+        position, rotation, linear, angular = z[0:3], z[3:6], z[6:9], z[9:12]
+        seen = np.concatenate([position, goal - position, rotation, -linear, angular, goal])
+        return self._normalised("normalizer", seen)
+
+    def _wanted(self, features: np.ndarray) -> np.ndarray:
+        return np.tanh(self._forward("policy", features))
 
     @staticmethod
     def _object(obs: np.ndarray) -> np.ndarray:
@@ -106,6 +115,22 @@ def test_rewards_equal_the_equation_written_out(
     np.testing.assert_allclose(rewards, expected, atol=1e-3)
 
 
+def test_the_distance_of_actions_equals_its_equation_written_out(
+    nets: LocomotionNets, transitions: Transitions
+) -> None:
+    nets.policy.weights[-1].data *= 3  # so that actions lie nearer and further apart than 1
+    plain, model = PlainEquation(nets), LocomotionModel(nets, tiny_config(), Measured(1.0, 1))
+    stream = SldrStream("object0", SldrConfig(reward="action_distance"), model, OBJECT, CPU, autocast=False)
+
+    rewards = stream.reward(transitions).numpy()
+
+    expected = np.array([plain.distance_reward(*row) for row in rows_of(transitions)])
+    assert min((expected == -1).mean(), (expected > -1).mean()) > 0.1, (
+        "the test has to meet the limit and what is above"
+    )
+    np.testing.assert_allclose(rewards, expected, atol=1e-5)
+
+
 def test_induced_actions_equal_the_inverse_model_written_out(
     stream: SldrStream, nets: LocomotionNets, transitions: Transitions
 ) -> None:
@@ -139,7 +164,7 @@ def test_an_object_that_does_what_it_wants_earns_the_most(
 def test_a_training_rewards_relabelled_goals_as_the_equation_does(tmp_path: Path) -> None:
     model = save_untrained_model(tmp_path / "model.pt")
     parts = collected_parts(tiny_config("manipulation", "her-sldr"), tmp_path, (model,))
-    sample = parts.sampler.sample(100)
+    sample = parts.sampler.sample(100, 0)
     tensors = [torch.from_numpy(part) for part in (sample.obs, sample.next_obs, sample.goal, sample.action)]
     extra = {name: torch.from_numpy(values) for name, values in sample.extra.items()}
     batch = Transitions(*tensors, reward=torch.from_numpy(sample.reward), extra=extra)

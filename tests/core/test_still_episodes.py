@@ -38,7 +38,7 @@ def drawn_episodes(buffer: ReplayBuffer, still_weight: float) -> np.ndarray:
     sampler = HindsightSampler(
         buffer, lambda achieved, goal: np.zeros(len(goal), np.float32), 0.8, still_weight, np.random.default_rng(0)
     )
-    return sampler.sample(BATCH).action[:, 0]
+    return sampler.sample(BATCH, 0).action[:, 0]
 
 
 def test_an_episode_has_moved_if_any_entry_of_its_goal_changed() -> None:
@@ -65,12 +65,12 @@ def test_new_episodes_are_seen_at_the_next_draw(buffer: ReplayBuffer) -> None:
     sampler = HindsightSampler(
         buffer, lambda achieved, goal: np.zeros(len(goal), np.float32), 0.8, 0.1, np.random.default_rng(0)
     )
-    sampler.sample(BATCH)
+    sampler.sample(BATCH, 0)
     achieved = np.zeros((1, LENGTH + 1, 3), dtype=np.float32)
     achieved[0, 1, 0] = 1.0
     new = np.full((1, LENGTH, 1), 99.0, dtype=np.float32)
     buffer.store(Episodes(np.zeros((1, LENGTH + 1, 1), np.float32), achieved, np.zeros((1, 3), np.float32), new))
-    assert np.any(sampler.sample(BATCH).action == 99.0)
+    assert np.any(sampler.sample(BATCH, 0).action == 99.0)
 
 
 def test_a_buffer_in_which_nothing_has_moved_can_still_be_drawn(tmp_path: Path) -> None:

@@ -52,8 +52,9 @@ OTHER_WORDS = {
     "locomotion_robot": ("still", {}),
     "device": ("cpu", {}),
     "precision": ("bfloat16", {}),
+    "reward": ("action_distance", {}),
 }
-ONLY_ONE_VALUE = {("task",), ("sldr", "reward")}
+ONLY_ONE_VALUE = {("task",)}
 SETTINGS = {path: value for path, value in leaves(config_to_dict(TrainConfig())).items() if path not in ONLY_ONE_VALUE}
 
 
@@ -62,6 +63,8 @@ def other_value(path: tuple[str, ...], value: Any) -> Any:
         return OTHER_WORDS[path[-1]][0]
     if isinstance(value, list):
         return value[:-1]
+    if path[-1].startswith("lowest_"):
+        return value - 100.0
     return value + 1 if isinstance(value, int) else value * 0.9 + 0.001
 
 
@@ -130,6 +133,21 @@ def test_every_setting_says_what_it_is_and_what_it_is_by_default() -> None:
         ({"task": "FetchPus"}, "task", "Did you mean 'FetchPush'?"),
         ({"method": "her-sldrr"}, "method", "Did you mean 'her-sldr'?"),
         ({"phase": "locomotion"}, "method", "a locomotion run learns from the sparse reward alone; use 'her'."),
+        ({"phase": "locomotion", "method": "her-dense"}, "method", "learns from the sparse reward alone"),
+        ({"phase": "locomotion", "method": "her-rnd"}, "method", "learns from the sparse reward alone"),
+        ({"sldr": {"reward": "distance"}}, "sldr.reward", "'advantage' or 'action_distance' (got 'distance')"),
+        ({"rnd": {"outputs": 0}}, "rnd.outputs", "greater than 0 (got 0)"),
+        ({"curriculum": {"candidates": 1}}, "curriculum.candidates", "(got 1)"),
+        (
+            {"method": "cher", "loop": {"batch_size": 4865}},
+            "loop.batch_size",
+            "4865 is no whole number of groups of 256",
+        ),
+        (
+            {"method": "cher", "curriculum": {"kept": 127}},
+            "curriculum.kept",
+            "the last of 127 picks could not compare 3",
+        ),
         ({"replay": {"capacity": 3799}}, "replay.capacity", "3799 transitions cannot hold two cycles of 1900"),
     ],
     ids=lambda value: ".".join(value) if isinstance(value, dict) else None,

@@ -1,4 +1,4 @@
-"""A task's parts each have a critic of their own, fed by the locomotion model of the task that the part learns in."""
+"""Every method trains on every task, with a critic for each reward; parts take theirs from locomotion models."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 import torch
 
-from sldr_core.config import TASKS, TrainConfig, find_task
+from sldr_core.config import METHODS, TASKS, TrainConfig, find_task
 from sldr_core.envs import make_envs
 from sldr_core.errors import BadFile, InvalidConfig, LocomotionMissing
 from sldr_core.nets.locomotion_model import LocomotionModel, LocomotionNets, Measured
@@ -20,10 +20,27 @@ from sldr_core.training import DirectoryRecorder, load_policy, train
 TINY: dict[str, Any] = {
     "loop": {"epochs": 1, "cycles_per_epoch": 1, "episodes_per_cycle": 2, "updates_per_cycle": 2, "batch_size": 8},
     "agent": {"hidden_sizes": [8, 8]},
+    "curriculum": {"group_size": 4, "candidates": 5, "kept": 2},
 }
 PICK = "FetchPickAndPlace"
-ONE_OF_EACH_KIND = {"FetchSlide", "FetchStack3", "FetchTuple5", "HandBlockFull"}
+USUALLY = {
+    ("ddpg", "FetchPush"),
+    ("her", "FetchPickAndPlace"),
+    ("cher", "HandEggRotate"),
+    ("cher", "FetchStack2"),
+    ("her-dense", "HandPenFull"),
+    ("her-dense", "FetchTuple3"),
+    ("ddpg-sldr", "FetchStack3"),
+    ("her-rnd", "HandBlockRotate"),
+    *(("her-sldr", task) for task in ("FetchSlide", "FetchTuple5", "HandBlockFull")),
+}
 """Trained in the usual run; the slow one trains all."""
+
+TRAININGS = [
+    pytest.param(method, task, marks=() if (method, task) in USUALLY else pytest.mark.slow)
+    for method in METHODS
+    for task in TASKS
+]
 
 
 def config_of(task: str, method: str = "her-sldr") -> TrainConfig:
@@ -41,18 +58,26 @@ def logged(directory: Path) -> dict[str, float]:
     return json.loads((directory / "metrics.jsonl").read_text().splitlines()[-1])["metrics"]
 
 
-@pytest.mark.parametrize(
-    "task", [pytest.param(task, marks=() if task in ONE_OF_EACH_KIND else pytest.mark.slow) for task in TASKS]
-)
-def test_every_task_trains_with_a_critic_for_each_part(task: str, tmp_path: Path) -> None:
-    config = config_of(task)
+@pytest.mark.parametrize(("method", "task"), TRAININGS)
+def test_every_method_trains_on_every_task_with_a_critic_for_each_reward(
+    method: str, task: str, tmp_path: Path
+) -> None:
+    config = config_of(task, method)
     models = [untrained_model(name, tmp_path) for name in locomotion_tasks(config)]
 
     result = train(config, DirectoryRecorder(tmp_path / "run"), models[::-1])
 
     critics = {name for name in logged(tmp_path / "run") if name.startswith("critic/") and name.endswith("/loss")}
     assert result.finished
-    assert critics == {"critic/task/loss", *(f"critic/sldr/{part.name}/loss" for part in find_task(task).parts)}
+    assert critics == {f"critic/{stream}/loss" for stream in streams_by_hand(method, task)}
+
+
+def streams_by_hand(method: str, task: str) -> set[str]:
+    """Return the rewards of a method: one for the task, and one for each part or for what is new."""
+    streams = {"task"}
+    if method.endswith("-sldr"):
+        streams |= {f"sldr/{part.name}" for part in find_task(task).parts}
+    return streams | {"rnd"} if method == "her-rnd" else streams
 
 
 @pytest.mark.parametrize("task", ["FetchPickAndPlace", "FetchTuple3", "HandPenTranslate"])

@@ -24,7 +24,13 @@ def get_choices() -> Choices:
         tasks=[_task(spec) for spec in TASKS.values()],
         phases=list(PHASES),
         methods=[
-            Method(name=spec.name, title=spec.title, summary=spec.summary, needs_locomotion=spec.needs_locomotion)
+            Method(
+                name=spec.name,
+                title=spec.title,
+                summary=spec.summary,
+                needs_locomotion=spec.needs_locomotion,
+                phases=list(spec.phases),
+            )
             for spec in METHODS.values()
         ],
         presets=[PresetSummary(name=preset.name, summary=preset.summary) for preset in PRESETS.values()],

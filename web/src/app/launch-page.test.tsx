@@ -78,9 +78,11 @@ test('seeds that cannot be read get a sentence', async () => {
   expect(await screen.findByText('Enter at least one seed, such as 0.')).toBeTruthy();
 });
 
-test('a locomotion run cannot learn with SLDR', async () => {
+test('a locomotion run learns with methods of that phase only', async () => {
   const { user } = openPage('/launch');
   await user.click(await screen.findByRole('radio', { name: 'Locomotion' }));
-  await waitFor(() => expect(screen.getByRole('radio', { name: 'her-sldr' })).toHaveProperty('disabled', true));
+  for (const name of ['her-sldr', 'her-dense']) {
+    await waitFor(() => expect(screen.getByRole('radio', { name })).toHaveProperty('disabled', true));
+  }
   expect(screen.getByRole('radio', { name: 'her' })).toHaveProperty('checked', true);
 });

@@ -52,8 +52,27 @@ export const CHOICES: Choices = {
   ],
   phases: ['locomotion', 'manipulation'],
   methods: [
-    { name: 'her', title: 'HER-Sparse', summary: 'Hindsight.', needs_locomotion: false },
-    { name: 'her-sldr', title: 'HER-Sparse+SLDR', summary: 'Hindsight and SLDR.', needs_locomotion: true },
+    {
+      name: 'her',
+      title: 'HER-Sparse',
+      summary: 'Hindsight.',
+      needs_locomotion: false,
+      phases: ['locomotion', 'manipulation'],
+    },
+    {
+      name: 'her-dense',
+      title: 'HER-Dense',
+      summary: 'Distances.',
+      needs_locomotion: false,
+      phases: ['manipulation'],
+    },
+    {
+      name: 'her-sldr',
+      title: 'HER-Sparse+SLDR',
+      summary: 'Hindsight and SLDR.',
+      needs_locomotion: true,
+      phases: ['manipulation'],
+    },
   ],
   presets: [
     { name: 'paper', summary: 'As in the paper.' },
@@ -90,6 +109,11 @@ export const RUN: RunSummary = {
   started_at: '2026-01-01T10:00:05Z',
   ended_at: null,
   cancel_requested: false,
+  pause_requested: false,
+  is_below_gate: false,
+  gate_waived: false,
+  priority: 0,
+  deleted_at: null,
 };
 
 export const DETAIL: RunDetail = {

@@ -21,7 +21,7 @@ export type Chosen = Required<LaunchSearch>;
 /** Fill the choices that the address leaves open. */
 export function fillChoices(search: LaunchSearch, choices: Choices): Chosen {
   const phase = search.phase ?? 'manipulation';
-  const methods = choices.methods.filter((method) => phase === 'manipulation' || !method.needs_locomotion);
+  const methods = choices.methods.filter((method) => method.phases.includes(phase));
   const pick = (wanted: string, names: readonly string[]): string =>
     names.includes(wanted) ? wanted : (names[0] ?? '');
   const methodNames = methods.map((method) => method.name);

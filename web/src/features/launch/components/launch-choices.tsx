@@ -58,11 +58,10 @@ export function LaunchChoices({ choices, chosen, problems, onChoose }: Props) {
         cards={choices.methods.map((method) => ({
           value: method.name,
           title: method.name,
-          summary: method.summary,
-          obstacle:
-            chosen.phase === 'locomotion' && method.needs_locomotion
-              ? 'Only for manipulation: it needs a locomotion model.'
-              : undefined,
+          summary: `${method.summary} In the paper: ${method.title}.`,
+          obstacle: method.phases.includes(chosen.phase)
+            ? undefined
+            : 'Only for manipulation: an object learns from the sparse reward alone.',
         }))}
       />
       <ChoiceCards

@@ -1,0 +1,30 @@
+"""The queue: in which order runs will start, what each waits for, and when."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter
+
+from backend.api.answers import run_summary
+from backend.api.dependencies import Store
+from backend.api.errors import problem_responses
+from backend.api.queue_schemas import Queue, QueueEntry
+from backend.store import forecast
+
+router = APIRouter(prefix="/api/queue", tags=["queue"])
+
+
+@router.get("", responses=problem_responses())
+def get_queue(store: Store) -> Queue:
+    """List the runs that have not ended, in the order in which they will start."""
+    return Queue(
+        entries=[
+            QueueEntry(
+                run=run_summary(entry.run),
+                position=entry.position,
+                waits_for=entry.waits_for,
+                starts_at=entry.starts_at,
+                ends_at=entry.ends_at,
+            )
+            for entry in forecast.list_queue(store)
+        ]
+    )
