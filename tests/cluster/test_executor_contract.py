@@ -27,10 +27,12 @@ WISHES: dict[StopWord, Action] = {"cancel": Action.CANCEL, "pause": Action.PAUSE
 """What a person wants when a supervisor says these words."""
 
 
-def test_an_attempt_comes_to_its_end_and_leaves_a_log(db: Database, settings: Settings, behave: Behave) -> None:
-    claimed, child = begin(db, behave("counts"))
+def test_an_attempt_comes_to_its_end_and_leaves_log_and_room(db: Database, settings: Settings, behave: Behave) -> None:
+    executor = behave("counts")
+    claimed, child = begin(db, executor)
 
     assert wait_for_end(child) == 0
+    wait_until(executor.has_room)
     assert get_run(db, claimed.run_id).state is RunState.SUCCEEDED
     assert read_metrics(db, claimed.run_id).step == [1, 2, 3, 4, 5]
     log = (settings.run_directory(claimed.run_id) / "log.txt").read_text()
@@ -68,11 +70,3 @@ def test_an_attempt_that_somebody_killed_is_worth_another(db: Database, settings
 
     assert wait_for_end(child) == -signal.SIGKILL
     assert child.outcome() == Lost("Its process was killed by SIGKILL (the machine may be out of memory).")
-
-
-def test_there_is_room_again_after_an_attempt(db: Database, behave: Behave) -> None:
-    executor = behave("counts")
-    _, child = begin(db, executor)
-    wait_for_end(child)
-
-    wait_until(executor.has_room)

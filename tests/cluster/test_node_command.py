@@ -6,6 +6,8 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -19,6 +21,13 @@ from worker.cli import main
 
 START_S = 120.0
 REAL_PATIENCE_S = 240.0
+
+
+@pytest.fixture
+def short_path() -> Iterator[str]:
+    """Return a directory whose path leaves room for the names of Ray's sockets."""
+    with tempfile.TemporaryDirectory(prefix="sldr-ray-", ignore_cleanup_errors=True) as path:
+        yield path
 
 
 @pytest.mark.parametrize(
@@ -58,9 +67,9 @@ def test_a_worker_on_a_cluster_has_to_be_told_where_it_is(settings: Settings) ->
 @pytest.mark.cluster
 @pytest.mark.slow
 def test_a_real_run_is_trained_on_a_cluster_begun_by_the_command(
-    db: Database, settings: Settings, tmp_path: Path, free_port: int
+    db: Database, settings: Settings, tmp_path: Path, short_path: str, free_port: int
 ) -> None:
-    environment = {**os.environ, **settings.as_environment(), "RAY_TMPDIR": f"/tmp/sldr-node-{os.getpid()}"}
+    environment = {**os.environ, **settings.as_environment(), "RAY_TMPDIR": short_path}
     for name in ("RAY_AUTH_TOKEN", "RAY_AUTH_TOKEN_PATH"):
         environment.pop(name, None)
     command = [sys.executable, "-m", "worker.cli"]

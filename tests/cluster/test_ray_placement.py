@@ -43,6 +43,7 @@ def test_a_cluster_has_as_many_slots_as_runs_fit(settings: Settings, complete: N
     assert ray_executor(settings, fake_command("counts")).count_slots() == 2
 
 
+@pytest.mark.slow
 def test_a_third_attempt_waits_for_a_node(db: Database, settings: Settings, complete: None) -> None:
     executor = ray_executor(settings, fake_command("lasts"))
     wait_until(executor.has_room)
