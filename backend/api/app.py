@@ -21,6 +21,7 @@ from backend.api.routes import choices, health, launches, queue, run_actions, ru
 from backend.api.tokens import ViewerTokens, load_secret
 from backend.store.database import open_database
 from backend.store.settings import Settings
+from backend.store.storage import FileStorage
 
 GZIP_LEVEL = 5
 """Nearly as small as the smallest, several times as fast."""
@@ -79,7 +80,7 @@ def _lifespan(settings: Settings):  # noqa: ANN202 - the decorator's type is lon
         database = open_database(settings)
         with viewer_proxy.viser_client() as viser:
             tokens = ViewerTokens(load_secret(settings.secret_path))
-            app.state.service = Service(settings=settings, database=database, tokens=tokens, viser=viser)
+            app.state.service = Service(settings, database, FileStorage(settings), tokens, viser)
             yield
         database.close()
 
