@@ -5,7 +5,8 @@ SldrError
 ├── InvalidConfig        a setting with a value that cannot work
 ├── LocomotionMissing    a manipulation run was started without the locomotion model it needs
 ├── BadFile              a checkpoint, model or episode file that is corrupt, foreign or unfit
-├── DiskTooFull          the run's files would not fit on the disk
+├── DiskTooFull          the run's files do not fit on the disk, or no longer
+├── DirectoryInUse       another process trains in the run's directory
 └── TrainingDiverged     a loss, weight or reward stopped being finite
 """
 
@@ -49,7 +50,11 @@ class BadFile(SldrError):
 
 
 class DiskTooFull(SldrError):
-    """Report that the files of a run would not fit; nothing was written."""
+    """Report that the files of a run do not fit; what was written before is whole."""
+
+
+class DirectoryInUse(SldrError):
+    """Report that another process trains in a run's directory: both would write the same files."""
 
 
 class TrainingDiverged(SldrError):

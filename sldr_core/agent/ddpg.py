@@ -12,11 +12,12 @@ from typing import Any
 
 import torch
 from torch import Tensor
+from torch.nn.utils import get_total_norm
 
 from sldr_core.agent.losses import actor_loss, critic_losses, lowest_return, td_target
 from sldr_core.config import AgentConfig
 from sldr_core.nets.mlp import Mlp, MlpStack
-from sldr_core.nets.normalizer import Normalizer
+from sldr_core.nets.normalizer import Drift, Normalizer
 from sldr_core.nets.transitions import Transitions
 from sldr_core.nets.views import View
 
@@ -55,6 +56,7 @@ class DdpgAgent:
         self._target_actor = deepcopy(self.actor).requires_grad_(False)
         self._target_critics = deepcopy(self.critics).requires_grad_(False)
         self._weights = torch.tensor(stream_weights, device=device)
+        self._lowest = torch.tensor(_lowest_targets(config, len(self._streams)), device=device)
         self._actor_optimiser = torch.optim.Adam(self.actor.parameters(), lr=config.learning_rate, fused=True)
         self._critic_optimiser = torch.optim.Adam(self.critics.parameters(), lr=config.learning_rate, fused=True)
 
@@ -67,9 +69,9 @@ class DdpgAgent:
         """Return the deterministic actions `[..., A]` of the online actor."""
         return self.actor(self.features(obs.to(self._device), goal.to(self._device))).cpu()
 
-    def observe(self, obs: Tensor, goal: Tensor) -> None:
-        """Take visited observations and their original goals into the running statistics."""
-        self.normalizer.update(self._view.features(obs.to(self._device), goal.to(self._device)))
+    def observe(self, obs: Tensor, goal: Tensor) -> Drift:
+        """Take visited observations and their original goals into the running statistics; return how they moved."""
+        return self.normalizer.update(self._view.features(obs.to(self._device), goal.to(self._device)))
 
     def update(self, batch: Transitions, rewards: Tensor) -> dict[str, Tensor]:
         """Learn from one batch.
@@ -120,22 +122,30 @@ class DdpgAgent:
         with torch.no_grad():
             next_action = self._target_actor(next_features)
             next_q = self._target_critics(torch.cat([next_features, next_action], dim=-1))[..., 0]
-            target = td_target(rewards, next_q.float(), self._config.gamma)
+            target = td_target(rewards, next_q.float(), self._config.gamma, self._lowest)
         q = self.critics(torch.cat([features, action], dim=-1))[..., 0].float()
         losses = critic_losses(q, target)
         _descend(losses.sum(), self.critics, self._critic_optimiser)
-        low = lowest_return(self._config.gamma)
-        clipped = ((target <= low) | (target >= 0.0)).float().mean(dim=1)
-        metrics: dict[str, Tensor] = {}
-        values = q.detach()
-        for index, name in enumerate(self._streams):
-            metrics[f"critic/{name}/loss"] = losses[index].detach()
-            metrics[f"critic/{name}/q_mean"] = values[index].mean()
-            metrics[f"critic/{name}/q_min"] = values[index].min()
-            metrics[f"critic/{name}/q_max"] = values[index].max()
-            metrics[f"critic/{name}/target_clip_share"] = clipped[index]
-            metrics[f"stream/{name}/mean"] = rewards[index].mean()
-        return metrics
+        return {
+            **self._critic_metrics(losses.detach(), q.detach(), target),
+            "critic/weight_norm": get_total_norm(list(self.critics.parameters())).detach(),
+        }
+
+    def _critic_metrics(self, losses: Tensor, q: Tensor, target: Tensor) -> dict[str, Tensor]:
+        """Return scalars by metric name, of losses `[S]`, values and targets `[S, B]`."""
+        rows = {
+            "loss": losses,
+            "q_mean": q.mean(dim=1),
+            "q_min": q.amin(dim=1),
+            "q_max": q.amax(dim=1),
+            "target_clip_low_share": (target <= self._lowest[:, None]).float().mean(dim=1),
+            "target_clip_high_share": (target >= 0.0).float().mean(dim=1),
+        }
+        return {
+            f"critic/{stream}/{name}": row[index]
+            for index, stream in enumerate(self._streams)
+            for name, row in rows.items()
+        }
 
     def _update_actor(self, features: Tensor) -> dict[str, Tensor]:
         action = self.actor(features)
@@ -144,11 +154,18 @@ class DdpgAgent:
         _descend(loss, self.actor, self._actor_optimiser)
         return {
             "actor/loss": loss.detach(),
+            "actor/weight_norm": get_total_norm(list(self.actor.parameters())).detach(),
             "actor/saturated_share": (action.detach().abs() > SATURATED).float().mean(),
         }
 
     def _precision(self) -> AbstractContextManager[Any]:
         return torch.autocast(self._device.type, dtype=torch.bfloat16, enabled=self._autocast)
+
+
+def _lowest_targets(config: AgentConfig, streams: int) -> list[float]:
+    """Return the lowest target of the task's critic, which is the first, and of the others."""
+    task = config.lowest_return or lowest_return(config.gamma)
+    return [task] + [config.lowest_auxiliary_return or task] * (streams - 1)
 
 
 def _descend(loss: Tensor, module: torch.nn.Module, optimiser: torch.optim.Optimizer) -> None:

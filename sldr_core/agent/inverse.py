@@ -6,6 +6,7 @@ from typing import Any
 
 import torch
 from torch import Tensor
+from torch.nn.utils import get_total_norm
 
 from sldr_core.config import AgentConfig
 from sldr_core.nets.mlp import Mlp
@@ -38,6 +39,12 @@ class InverseLearner:
         self._device = device
         self._autocast = autocast
 
+    @torch.no_grad()
+    def error(self, state: Tensor, next_state: Tensor, action: Tensor) -> Tensor:
+        """Return how far the model is from the actions of transitions, as root mean square, in action units."""
+        seen = transition_features(state.to(self._device), next_state.to(self._device))
+        return (self.net(self.normalizer(seen)) - action.to(self._device)).square().mean().sqrt()
+
     def observe(self, state: Tensor, next_state: Tensor) -> None:
         """Take visited transitions `[..., Z]` into the running statistics."""
         self.normalizer.update(transition_features(state.to(self._device), next_state.to(self._device)))
@@ -51,7 +58,10 @@ class InverseLearner:
         for parameter, gradient in zip(parameters, torch.autograd.grad(loss, parameters), strict=True):
             parameter.grad = gradient
         self._optimiser.step()
-        return {"inverse/loss": loss.detach()}
+        return {
+            "inverse/loss": loss.detach(),
+            "inverse/weight_norm": get_total_norm(parameters).detach(),
+        }
 
     def state_dict(self) -> dict[str, Any]:
         """Return all that learning goes on from."""

@@ -13,12 +13,18 @@ def lowest_return(gamma: float) -> float:
     return -1.0 / (1.0 - gamma)
 
 
-def td_target(reward: Tensor, next_q: Tensor, gamma: float) -> Tensor:
-    """Return r + gamma Q', clipped to what rewards in [-1, 0] allow. All `[S, B]`.
+def td_target(reward: Tensor, next_q: Tensor, gamma: float, lowest: Tensor) -> Tensor:
+    """Return r + gamma Q', clipped to 0 and the lowest target of each stream.
 
     Every transition bootstraps: episodes end by time alone.
+
+    Args:
+        reward: `[S, B]`.
+        next_q: values of the next states, `[S, B]`.
+        gamma: the discount.
+        lowest: lowest target of each stream, `[S]`.
     """
-    return (reward + gamma * next_q).clamp(lowest_return(gamma), 0.0)
+    return (reward + gamma * next_q).clamp(max=0.0).maximum(lowest[:, None])
 
 
 def critic_losses(q: Tensor, target: Tensor) -> Tensor:

@@ -17,3 +17,6 @@ Rate = Annotated[float, Field(gt=0.0, lt=1.0)]
 
 Weight = Annotated[float, Field(ge=0.0)]
 """A number from 0."""
+
+Return = Annotated[float, Field(le=0.0)]
+"""A number up to 0."""

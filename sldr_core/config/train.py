@@ -11,7 +11,7 @@ from pydantic.dataclasses import dataclass
 
 from sldr_core.config.method_settings import CurriculumConfig, RndConfig, SldrConfig
 from sldr_core.config.methods import METHODS, MethodSpec, find_method
-from sldr_core.config.numbers import Positive, Rate, Share, Weight
+from sldr_core.config.numbers import Positive, Rate, Return, Share, Weight
 from sldr_core.config.tasks import LOCOMOTION_TASKS, TASKS, Phase, TaskSpec, Variant, find_task
 from sldr_core.errors import InvalidConfig, UnknownName
 
@@ -56,7 +56,11 @@ class AgentConfig:
     learning_rate: Rate = 1e-3
     """Step size of Adam for every network."""
     gamma: Rate = 0.98
-    """Discount of future rewards; targets are clipped to [-1 / (1 - gamma), 0]."""
+    """Discount of future rewards."""
+    lowest_return: Return = 0.0
+    """Targets of the task's critic are clipped to this and 0 (0: to -1 / (1 - gamma), the least possible return)."""
+    lowest_auxiliary_return: Return = 0.0
+    """The same for the critics of all other rewards (0: as the task's)."""
     target_rate: Annotated[float, Field(gt=0.0, le=1.0)] = 0.05
     """Share of the online weights that enters the target networks at each sync (1 - polyak)."""
     action_l2: Weight = 1.0

@@ -121,18 +121,16 @@ class Envs:
             self._marker.show(chosen, self._goal[chosen])
 
     def state(self) -> dict[str, Any]:
-        """Return everything that decides what comes next: simulations, goals and generators."""
+        """Return everything that decides what comes next, at any moment: simulations, goals and generators."""
         return {
-            "simulation": self.simulation.state.copy(),
+            "simulation": self.simulation.snapshot(),
             "goal": self._goal.copy(),
             "rngs": [rng.bit_generator.state for rng in self._rngs],
         }
 
     def restore(self, state: dict[str, Any]) -> None:
         """Continue from what `state` returned, to the last bit."""
-        self.simulation.state[:] = state["simulation"]
-        self.simulation.forward()
-        self.simulation.state[:] = state["simulation"]
+        self.simulation.restore(state["simulation"])
         self._goal[:] = state["goal"]
         for rng, rng_state in zip(self._rngs, state["rngs"], strict=True):
             rng.bit_generator.state = rng_state

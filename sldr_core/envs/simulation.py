@@ -36,6 +36,9 @@ class Simulation:
         self.site_mat: Array = self.batch.bind("site_xmat")
         self._motion_axes: Array = self.batch.bind("cdof")
         self._subtree_com: Array = self.batch.bind("subtree_com")
+        written = (self.qpos, self.qvel, self.ctrl, self.mocap_pos, self.mocap_quat)
+        derived = (self.body_pos, self.body_quat, self.site_pos, self.site_mat, self._motion_axes, self._subtree_com)
+        self._views: tuple[Array, ...] = (*written, *derived)
         self.batch.reset()
 
     def step(self, substeps: int, ids: Ids | None = None) -> None:
@@ -52,6 +55,31 @@ class Simulation:
         self.qpos[ids] = qpos
         self.qvel[ids] = qvel
         self.batch.forward(ids)
+
+    def snapshot(self) -> Array:
+        """Return everything that can be read or will be stepped on from, one row for each simulation, `[N, K]`.
+
+        Derived values are part of it: after a step they lag one substep behind positions and velocities, and the next
+        step starts from what they say, so they cannot be worked out anew.
+        """
+        return np.concatenate([part.reshape(self.num_envs, -1) for part in (self.state, *self._views)], axis=1)
+
+    def restore(self, snapshot: Array) -> None:
+        """Bring every simulation to the state that `snapshot` returned, to the last bit.
+
+        Raises:
+            ValueError: it is a snapshot of another scene, or of another number of simulations.
+        """
+        sizes = [part[0].size for part in (self.state, *self._views)]
+        if snapshot.shape != (self.num_envs, sum(sizes)):
+            raise ValueError(f"expected a snapshot of shape {(self.num_envs, sum(sizes))}, got {snapshot.shape}")
+        state, *views = np.split(snapshot, np.cumsum(sizes)[:-1], axis=1)
+        # Forwarding ends what was pending, but changes the state itself, so that is written twice.
+        self.state[:] = state
+        self.forward()
+        self.state[:] = state
+        for view, values in zip(self._views, views, strict=True):
+            view[:] = values.reshape(view.shape)
 
     def has_body(self, name: str) -> bool:
         """Tell whether the scene has a body of this name."""

@@ -1,7 +1,8 @@
-"""Reading files of weights as data alone: nothing in them is ever executed."""
+"""Files of weights, written whole and read as data alone: nothing in them is ever executed."""
 
 from __future__ import annotations
 
+import io
 import pickle
 import zlib
 from pathlib import Path
@@ -27,6 +28,18 @@ _UNREADABLE = (
 """What zipfile and torch.load raise on files that are cut short, damaged or foreign."""
 
 
+def save_tensors(path: Path, content: dict[str, Any]) -> None:
+    """Write a file of tensors and plain values.
+
+    Raises:
+        OSError: the disk is full, and the like.
+    """
+    # By way of memory: writing to the disk itself, torch.save tells a full one as an internal fault of its own.
+    packed = io.BytesIO()
+    torch.save(content, packed)
+    path.write_bytes(packed.getbuffer())
+
+
 def load_tensors(path: Path, *kinds: str) -> dict[str, Any]:
     """Read a file of tensors and plain values.
 
@@ -48,6 +61,11 @@ def load_tensors(path: Path, *kinds: str) -> dict[str, Any]:
     if kind not in kinds:
         raise BadFile(f"{path} holds a {kind or 'foreign object'}, but a {' or '.join(kinds)} is needed.")
     return content
+
+
+def one_line(err: Exception) -> str:
+    """Return what an error says without its line breaks."""
+    return " ".join(str(err).split())
 
 
 def _check_sums(path: Path) -> None:

@@ -11,7 +11,7 @@ from torch import Tensor, nn
 
 from sldr_core.config import TrainConfig, config_from_dict, config_hash, config_to_dict
 from sldr_core.errors import BadFile, InvalidConfig
-from sldr_core.nets.files import load_tensors
+from sldr_core.nets.files import load_tensors, one_line, save_tensors
 from sldr_core.nets.mlp import Mlp, MlpStack
 from sldr_core.nets.normalizer import Normalizer
 from sldr_core.nets.views import transition_features, view_of
@@ -70,16 +70,18 @@ class LocomotionModel:
 
     def save(self, path: Path) -> None:
         """Write everything to `path`."""
-        torch.save(
+        save_tensors(
+            path,
             {
                 "kind": KIND,
+                "task": self.config.task,
+                "phase": self.config.phase,
                 "config": config_to_dict(self.config),
                 "config_hash": config_hash(self.config),
                 "success_rate": self.measured.success_rate,
                 "test_episodes": self.measured.episodes,
                 "nets": self.nets.state_dict(),
             },
-            path,
         )
 
 
@@ -87,15 +89,26 @@ def load_locomotion_model(path: Path) -> LocomotionModel:
     """Read a locomotion model; its config says of which task it is.
 
     Raises:
-        BadFile: it is missing, corrupt or something else.
+        BadFile: it is missing, corrupt or something else, or its networks are not those of its task.
     """
     content: dict[str, Any] = load_tensors(path, KIND)
     try:
         config = config_from_dict(content["config"])
+        _check_origin(path, content, config)
         nets = LocomotionNets(config, torch.Generator())
         nets.load_state_dict(content["nets"])
         measured = Measured(float(content["success_rate"]), int(content["test_episodes"]))
     except (AttributeError, KeyError, TypeError, ValueError, RuntimeError, InvalidConfig) as err:
-        raise BadFile(f"{path} is no usable locomotion model ({err}); train it again.") from err
+        raise BadFile(f"{path} is no usable locomotion model ({one_line(err)}); train it again.") from err
     nets.requires_grad_(False).eval()
     return LocomotionModel(nets, config, measured)
+
+
+def _check_origin(path: Path, content: dict[str, Any], config: TrainConfig) -> None:
+    """Compare what the file says of itself with its config."""
+    said = (content.get("task", config.task), content.get("phase", config.phase))
+    if said != (config.task, config.phase) or config.phase != "locomotion":
+        raise BadFile(
+            f"{path} says it is of {said[0]} ({said[1]}), but its config is of {config.task} ({config.phase}); "
+            "train it again."
+        )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import torch
 from torch import Tensor, nn
 
@@ -13,6 +15,15 @@ OUTPUT_CLIP = 5.0
 
 STD_FLOOR = 0.01
 """Added to every deviation."""
+
+
+class Drift(NamedTuple):
+    """How far an update moved a normaliser, of the entry that moved most, in deviations."""
+
+    shift: Tensor
+    """Change of the mean, a scalar."""
+    scale: Tensor
+    """Change of the deviation, a scalar."""
 
 
 class Normalizer(nn.Module):
@@ -37,8 +48,9 @@ class Normalizer(nn.Module):
         return ((x.clamp(-INPUT_CLIP, INPUT_CLIP) - self.shift) * self.scale).clamp(-OUTPUT_CLIP, OUTPUT_CLIP)
 
     @torch.no_grad()
-    def update(self, x: Tensor) -> None:
-        """Take `[..., D]` into the statistics (Chan's update of Welford's sums)."""
+    def update(self, x: Tensor) -> Drift:
+        """Take `[..., D]` into the statistics (Chan's update of Welford's sums); return how far they moved."""
+        shift, scale = self.shift.clone(), self.scale.clone()
         rows = x.reshape(-1, x.shape[-1]).to(torch.float64).clamp(-INPUT_CLIP, INPUT_CLIP)
         count, mean = rows.shape[0], rows.mean(dim=0)
         total = self.count + count
@@ -48,3 +60,4 @@ class Normalizer(nn.Module):
         self.count.fill_(total)
         self.shift.copy_(self.mean)
         self.scale.copy_(1.0 / ((self.m2 / total).sqrt() + STD_FLOOR))
+        return Drift(((self.shift - shift) * self.scale).abs().max(), (self.scale / scale - 1.0).abs().max())

@@ -16,6 +16,7 @@ from sldr_core.config import (
     Phase,
     TaskSpec,
     TrainConfig,
+    Variant,
     config_from_dict,
     find_method,
     find_task,
@@ -42,7 +43,12 @@ class Preset:
     """Settings of locomotion runs."""
 
 
-QUICK_AGENT: Settings = {"hidden_sizes": [128, 128, 128], "gamma": 0.95}
+QUICK_AGENT: Settings = {
+    "hidden_sizes": [128, 128, 128],
+    "gamma": 0.95,
+    "lowest_return": 0.0,
+    "lowest_auxiliary_return": 0.0,
+}
 """Small nets that two cores can train, and a horizon that values spread over within minutes."""
 
 SMOKE_CURRICULUM: Settings = {"group_size": 32, "candidates": 16, "kept": 8}
@@ -153,7 +159,7 @@ def make_config(
         InvalidConfig: a setting is unknown or cannot work.
     """
     settings: Settings = {"task": task, "phase": phase, "method": method, "seed": seed}
-    _merge(settings, _task_settings(find_task(task), phase))
+    _merge(settings, _task_settings(find_task(task, _variant_in(overrides)), phase))
     _merge(settings, {"replay": {"relabel_probability": find_method(method).relabel_probability}})
     _merge(settings, getattr(find_preset(preset), phase))
     _merge(settings, overrides or {})
@@ -185,6 +191,12 @@ def make_locomotion_config(config: TrainConfig, preset: str, task: str | None = 
     return make_config(trained_in, "locomotion", LOCOMOTION_METHOD, 0, preset, {"compute": compute, "scene": scene})
 
 
+def _variant_in(overrides: Settings | None) -> Variant:
+    """Return the variant that overrides ask for; what is no variant is told of when the config is built."""
+    scene = (overrides or {}).get("scene")
+    return "original" if isinstance(scene, dict) and cast(Settings, scene).get("variant") == "original" else "ours"
+
+
 def _task_settings(task: TaskSpec, phase: Phase) -> Settings:
     if phase == "locomotion":
         return {
@@ -192,7 +204,8 @@ def _task_settings(task: TaskSpec, phase: Phase) -> Settings:
             "agent": {"gamma": task.locomotion_gamma},
             "exploration": {"random_action_probability": 0.2, "noise_std": 0.05},
         }
-    return {"loop": {"epochs": task.paper_epochs}, "agent": {"gamma": task.gamma}}
+    returns = {"lowest_return": task.lowest_return, "lowest_auxiliary_return": task.lowest_auxiliary_return}
+    return {"loop": {"epochs": task.paper_epochs}, "agent": {"gamma": task.gamma, **returns}}
 
 
 def _merge(settings: Settings, changes: Settings, path: str = "") -> None:

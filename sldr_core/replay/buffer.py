@@ -7,21 +7,20 @@ overwritten by those written after it, and a killed run goes on from its checkpo
 
 from __future__ import annotations
 
-import shutil
+import math
+import os
 from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from sldr_core.disk import explain_full_disk
 from sldr_core.errors import DiskTooFull
 from sldr_core.records import Episodes, Floats
 
 MOVED = 0.01
 """An episode has moved something if an entry of its achieved goal changed by more than this [m or quaternion]."""
-
-FREE_DISK = 256 * 2**20
-"""Disk space left free beside the replay file [bytes]."""
 
 
 class ReplayBuffer:
@@ -49,11 +48,11 @@ class ReplayBuffer:
         self.capacity = capacity
         self.slots = capacity + slack
         self.written = 0
+        self.file_size = replay_bytes(shapes, self.slots)
         shapes = {**shapes, "moved": ()}
-        sizes = {name: int(np.prod(shape)) for name, shape in shapes.items()}
-        self.file_size = 4 * self.slots * sum(sizes.values())
-        _check_disk(path, self.file_size)
-        floats = np.memmap(path, dtype=np.float32, mode="r+" if path.exists() else "w+", shape=(self.file_size // 4,))
+        sizes = {name: math.prod(shape) for name, shape in shapes.items()}
+        _reserve(path, self.file_size)
+        floats = np.memmap(path, dtype=np.float32, mode="r+", shape=(self.file_size // 4,))
         self._file = floats
         self.arrays: dict[str, Floats] = {}
         begin = 0
@@ -88,13 +87,24 @@ def has_moved(achieved: Floats) -> Floats:
     return (np.abs(achieved - achieved[:, :1]).max(axis=(1, 2)) > MOVED).astype(np.float32)
 
 
-def _check_disk(path: Path, bytes_needed: int) -> None:
-    held = path.stat().st_size if path.exists() else 0
-    free = shutil.disk_usage(path.parent).free
-    if held != bytes_needed and free + held < bytes_needed + FREE_DISK:
-        raise DiskTooFull(
-            f"The replay file {path} needs {bytes_needed / 1e9:.1f} GB and its disk has {free / 1e9:.1f} GB free; "
-            "lower replay.capacity or free some space."
-        )
-    if path.exists() and held != bytes_needed:
+def replay_bytes(shapes: Mapping[str, tuple[int, ...]], slots: int) -> int:
+    """Return the size of a replay file of so many episodes [bytes], given the shape of one episode's parts."""
+    moved = 1
+    return np.dtype(np.float32).itemsize * slots * (moved + sum(math.prod(shape) for shape in shapes.values()))
+
+
+def _reserve(path: Path, size: int) -> None:
+    """Make the file, or what is missing of it, so that every page of it has its place on the disk.
+
+    A page without one would end the process by a signal when it is written to on a full disk.
+    """
+    if path.exists() and path.stat().st_size != size:
         path.unlink()
+    is_new = not path.exists()
+    try:
+        with explain_full_disk(path), path.open("ab") as file:
+            os.posix_fallocate(file.fileno(), 0, size)
+    except DiskTooFull:
+        if is_new:
+            path.unlink()
+        raise

@@ -5,20 +5,23 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import torch
 
 from sldr_core.agent import DdpgAgent, InverseLearner
-from sldr_core.config import Auxiliary, SamplerName, TrainConfig
+from sldr_core.config import Auxiliary, SamplerName, TrainConfig, find_task
+from sldr_core.disk import check_room
 from sldr_core.envs import Envs, make_envs
 from sldr_core.errors import BadFile, LocomotionMissing
 from sldr_core.nets.locomotion_model import LocomotionModel, load_locomotion_model
 from sldr_core.nets.views import view_of
 from sldr_core.presets import locomotion_tasks
-from sldr_core.replay import ReplayBuffer, Sampler, SamplerOrder, build_curriculum, build_hindsight
+from sldr_core.replay import ReplayBuffer, Sampler, SamplerOrder, build_curriculum, build_hindsight, replay_bytes
 from sldr_core.streams import Stream, StreamOrder, TaskStream, build_rnd, build_sldr
 from sldr_core.training.compute import Compute, resolve_compute
+from sldr_core.training.files import REPLAY_FILE, planned_sizes
 from sldr_core.training.rollout import Exploration
 
 AUXILIARY: dict[Auxiliary, Callable[[StreamOrder], Sequence[Stream]]] = {"sldr": build_sldr, "rnd": build_rnd}
@@ -30,10 +33,11 @@ SAMPLERS: dict[SamplerName, Callable[[SamplerOrder], Sampler]] = {
 }
 """How the sampler that a method names is put together."""
 
-REPLAY_FILE = "replay.bin"
-
 CHECKPOINT_CYCLES = 10
 """A checkpoint is written at least once in so many cycles."""
+
+CHECKPOINTS_KEPT = 2
+"""The newest, and the one before for when it is damaged: the replay file serves both."""
 
 TEST_SEED_OFFSET = 2**31
 """Test episodes draw from generators that no training episode uses."""
@@ -55,6 +59,12 @@ class Parts:
     """Learnt beside the object's policy in locomotion."""
     streams: tuple[Stream, ...]
 
+    def learner_states(self) -> dict[str, Any]:
+        """Return the states of everything that learns, by name."""
+        inverse = {} if self.inverse is None else {"inverse": self.inverse.state_dict()}
+        streams = {f"stream {stream.name}": stream.state_dict() for stream in self.streams}
+        return {"agent": self.agent.state_dict(), **inverse, **streams}
+
 
 def build_training(
     config: TrainConfig, directory: Path, locomotion_models: Sequence[Path], gate_waived: bool = False
@@ -70,12 +80,12 @@ def build_training(
     Raises:
         LocomotionMissing: the method needs a locomotion model that is not given, or is below its gate.
         BadFile: a locomotion model cannot be used.
-        DiskTooFull: the replay file would not fit.
+        DiskTooFull: the run's files would not fit.
         InvalidConfig: the device does not exist.
     """
     models = _load_models(config, locomotion_models, gate=0.0 if gate_waived else config.sldr.gate)
     compute = resolve_compute(config.compute)
-    task, loop = config.task_spec, config.loop
+    task = config.task_spec
     sampling_seed, exploration_seed, weight_seed, stream_seed = np.random.SeedSequence(config.seed).spawn(4)
     weights = _weight_generator(weight_seed)
     streams = _build_streams(config, compute, models, _weight_generator(stream_seed))
@@ -93,12 +103,8 @@ def build_training(
     )
     locomotion = config.phase == "locomotion"
     inverse = InverseLearner(envs.obs_size, envs.action_size, config.agent, weights, compute.device, compute.autocast)
-    buffer = ReplayBuffer(
-        directory / REPLAY_FILE,
-        _episode_shapes(envs, streams),
-        capacity=config.replay.capacity // task.episode_length,
-        slack=(CHECKPOINT_CYCLES + loop.warmup_cycles + 1) * loop.episodes_per_cycle,
-    )
+    learners = (agent, *([inverse] if locomotion else []), *streams)
+    buffer = _make_buffer(config, directory, envs, streams, [part.state_dict() for part in learners])
     rng = np.random.default_rng(sampling_seed)
     return Parts(
         config=config,
@@ -114,6 +120,21 @@ def build_training(
     )
 
 
+def _make_buffer(
+    config: TrainConfig,
+    directory: Path,
+    envs: Envs,
+    streams: Sequence[Stream],
+    learners: Sequence[Mapping[str, Any]],
+) -> ReplayBuffer:
+    """Make the replay file, once it is known that it and every other file of the run fits."""
+    loop, shapes = config.loop, _episode_shapes(envs, streams)
+    capacity = config.replay.capacity // envs.episode_length
+    slack = (CHECKPOINTS_KEPT * CHECKPOINT_CYCLES + loop.warmup_cycles + 1) * loop.episodes_per_cycle
+    check_room(directory, planned_sizes(config, replay_bytes(shapes, capacity + slack), envs.state(), learners))
+    return ReplayBuffer(directory / REPLAY_FILE, shapes, capacity, slack)
+
+
 def _load_models(config: TrainConfig, paths: Sequence[Path], gate: float) -> dict[str, LocomotionModel]:
     """Read the locomotion models that the method needs, by the task each was trained in."""
     models: dict[str, LocomotionModel] = {}
@@ -123,6 +144,11 @@ def _load_models(config: TrainConfig, paths: Sequence[Path], gate: float) -> dic
         task = model.config.task
         if task not in needed:
             raise BadFile(f"{path} is a locomotion model of {task}; {config.task} needs {_of_tasks(needed)}.")
+        if model.config.task_spec != find_task(task, config.scene.variant):
+            raise BadFile(
+                f"{path} is a locomotion model of {task} in variant '{model.config.scene.variant}', whose numbers "
+                f"differ from those of variant '{config.scene.variant}'; train its object there, or set scene.variant."
+            )
         if task in models:
             raise BadFile(f"{path} is a second locomotion model of {task}; give one of each task.")
         if model.measured.success_rate < gate:

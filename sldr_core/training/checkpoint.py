@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import logging
+import shutil
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from typing import Any
@@ -11,13 +13,31 @@ import numpy as np
 import torch
 
 from sldr_core.config import TrainConfig, config_hash, config_to_dict
+from sldr_core.disk import write_atomically
 from sldr_core.envs import Envs
 from sldr_core.errors import BadFile
-from sldr_core.nets.files import load_tensors
-from sldr_core.training.build import REPLAY_FILE, Parts
+from sldr_core.nets.files import load_tensors, one_line, save_tensors
+from sldr_core.training.build import Parts
+from sldr_core.training.files import (
+    CHECKPOINT_FILE,
+    DAMAGED_CHECKPOINT_FILE,
+    PREVIOUS_CHECKPOINT_FILE,
+    REPLAY_FILE,
+)
 
-CHECKPOINT_FILE = "checkpoint.pt"
 KIND = "checkpoint"
+
+PARTS = frozenset(
+    (
+        *("agent", "inverse", "streams", "envs", "test_envs"),
+        *("sampler_rng", "exploration_rng", "counters", "replay_written"),
+    )
+)
+"""What a checkpoint cannot do without."""
+
+START_ANEW = "remove every checkpoint of this directory to start the run anew"
+
+log = logging.getLogger(__name__)
 
 
 @dataclass
@@ -38,10 +58,23 @@ class Counters:
     """Newest tests in a row that reached `loop.stop_at_success`."""
 
 
+class ForeignCheckpoint(BadFile):
+    """Report a checkpoint of another run than the one that is to go on."""
+
+
+@dataclass(frozen=True)
+class Kept:
+    """A checkpoint as it lies on the disk, read but not yet used."""
+
+    path: Path
+    content: dict[str, Any]
+
+
 def write_checkpoint(path: Path, parts: Parts, counters: Counters) -> None:
     """Write the whole state of a training to `path`; the replay file is flushed first."""
     parts.buffer.flush()
-    torch.save(
+    save_tensors(
+        path,
         {
             "kind": KIND,
             "config": config_to_dict(parts.config),
@@ -57,33 +90,72 @@ def write_checkpoint(path: Path, parts: Parts, counters: Counters) -> None:
             "replay_written": parts.buffer.written,
             "replay_bytes": parts.buffer.file_size,
         },
-        path,
     )
+
+
+def keep_previous(directory: Path) -> None:
+    """Keep a copy of the newest checkpoint, which is about to be replaced."""
+    newest = directory / CHECKPOINT_FILE
+
+    def copy(path: Path) -> None:
+        shutil.copyfile(newest, path)
+
+    if newest.exists():
+        write_atomically(directory / PREVIOUS_CHECKPOINT_FILE, copy)
+
+
+def read_newest(directory: Path, config: TrainConfig) -> Kept | None:
+    """Read the newest usable checkpoint of a directory, if it holds any; say so if that is not the newest.
+
+    Raises:
+        BadFile: none can be used, or the newest was made by another config.
+    """
+    problem: BadFile | None = None
+    newest, previous = directory / CHECKPOINT_FILE, directory / PREVIOUS_CHECKPOINT_FILE
+    for path in (path for path in (newest, previous) if path.exists()):
+        try:
+            kept = Kept(path, read_checkpoint(path, config))
+        except ForeignCheckpoint:
+            raise
+        except BadFile as err:
+            problem = problem or err
+            continue
+        if path == previous:
+            _fall_back(kept, newest, problem)
+        return kept
+    if problem is not None:
+        raise problem
+    return None
 
 
 def read_checkpoint(path: Path, config: TrainConfig) -> dict[str, Any]:
     """Read a checkpoint that fits a config; nothing in its directory is touched.
 
     Raises:
-        BadFile: the file is corrupt, was made by another config, or has lost its replay file.
+        ForeignCheckpoint: it was made by another config.
+        BadFile: the file is corrupt, lacks a part, or has lost its replay file.
     """
     content = load_tensors(path, KIND)
     if content.get("config_hash") != config_hash(config):
-        raise BadFile(
+        raise ForeignCheckpoint(
             f"{path} was made by another config than this run's; use another directory, or remove it to start anew."
         )
+    missing = sorted(PARTS - content.keys())
+    if missing:
+        raise BadFile(f"{path} is no whole checkpoint: it lacks {', '.join(missing)}; {START_ANEW}.")
     replay = path.with_name(REPLAY_FILE)
-    if not replay.is_file() or replay.stat().st_size != content.get("replay_bytes"):
-        raise BadFile(f"{path} needs {replay}, which is gone or was cut short; remove the checkpoint to start anew.")
+    if not replay.is_file() or replay.stat().st_size != content["replay_bytes"]:
+        raise BadFile(f"{path} needs {replay}, which is gone or was cut short; {START_ANEW}.")
     return content
 
 
-def restore_training(path: Path, content: dict[str, Any], parts: Parts) -> Counters:
+def restore_training(kept: Kept, parts: Parts) -> Counters:
     """Bring a training to the state of a checkpoint.
 
     Raises:
-        BadFile: a part of the content is missing or does not fit.
+        BadFile: a part of it does not fit.
     """
+    content = kept.content
     try:
         parts.agent.load_state_dict(content["agent"])
         if parts.inverse is not None:
@@ -97,7 +169,16 @@ def restore_training(path: Path, content: dict[str, Any], parts: Parts) -> Count
         parts.buffer.written = int(content["replay_written"])
         return Counters(**{field.name: content["counters"][field.name] for field in fields(Counters)})
     except (AttributeError, KeyError, TypeError, ValueError, RuntimeError) as err:
-        raise BadFile(f"{path} is no whole checkpoint ({err}); remove it to start this run anew.") from err
+        raise BadFile(f"{kept.path} is no whole checkpoint ({one_line(err)}); {START_ANEW}.") from err
+
+
+def _fall_back(kept: Kept, newest: Path, problem: BadFile | None) -> None:
+    """Tell that a training goes on from an earlier checkpoint, and set the damaged one aside."""
+    reason = str(problem or f"There is no {newest}.")
+    if newest.exists():
+        # Under its own name it would be taken for the previous checkpoint when the next one is written.
+        newest.rename(newest.with_name(DAMAGED_CHECKPOINT_FILE))
+    log.warning("%s Going on from %s, after cycle %d.", reason, kept.path, kept.content["counters"]["cycle"])
 
 
 def _pack_rng(rng: np.random.Generator) -> str:

@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+import fcntl
 import json
 import os
-from collections.abc import Callable, Mapping
+import re
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
 
+from sldr_core.disk import explain_full_disk, sync, write_atomically
+from sldr_core.errors import DirectoryInUse
 from sldr_core.records import Step
+from sldr_core.training.files import METRICS_FILE
 from sldr_core.training.recorder import StopReason
 
-METRICS_FILE = "metrics.jsonl"
+LOCK_FILE = ".training.lock"
 
 
 class DirectoryRecorder:
@@ -19,6 +25,7 @@ class DirectoryRecorder:
 
     def __init__(self, directory: Path) -> None:
         directory.mkdir(parents=True, exist_ok=True)
+        remove_leftovers(directory)
         self._directory = directory
         self._stop: StopReason | None = None
         self._logged = False
@@ -29,16 +36,26 @@ class DirectoryRecorder:
         return self._directory
 
     def log(self, step: Step, metrics: Mapping[str, float]) -> None:
-        """Append one line with the step and the metrics."""
+        """Append one line with the step and the metrics.
+
+        Raises:
+            DiskTooFull: there is no room for it.
+        """
         path = self._directory / METRICS_FILE
         if not self._logged:
             _drop_from(path, step.cycle)
             self._logged = True
-        with path.open("a") as file:
+        with explain_full_disk(path), path.open("a") as file:
             file.write(json.dumps({**asdict(step), "metrics": dict(metrics)}) + "\n")
 
     def save_file(self, name: str, kind: str, write: Callable[[Path], None]) -> Path:
-        """Write to a temporary name, sync, rename."""
+        """Write to a temporary name, sync, rename.
+
+        Raises:
+            DiskTooFull: there is no room for it.
+        """
+        # A checkpoint must never be on the disk before the lines that it says are logged.
+        sync(self._directory / METRICS_FILE)
         return write_atomically(self._directory / name, write)
 
     def stop_requested(self) -> StopReason | None:
@@ -50,25 +67,37 @@ class DirectoryRecorder:
         self._stop = reason
 
 
-def write_atomically(path: Path, write: Callable[[Path], None]) -> Path:
-    """Let `write` fill a temporary file beside `path`, sync it, and rename it to `path`.
+def remove_leftovers(directory: Path) -> None:
+    """Remove the temporary files of processes that were killed while they wrote; those of living ones stay."""
+    for path in directory.glob(".*.tmp"):
+        writer = re.fullmatch(r"\..+\.(\d+)\.tmp", path.name)
+        if writer and not _is_another_living(int(writer[1])):
+            path.unlink(missing_ok=True)
 
-    A reader sees the old file or the new one, whenever this process or the machine dies.
+
+@contextmanager
+def alone_in(directory: Path) -> Iterator[None]:
+    """Keep every other process from training in a directory; a process that is killed lets go of it.
+
+    Raises:
+        DirectoryInUse: another process trains there.
     """
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
+    with (directory / LOCK_FILE).open("w") as file:
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError as err:
+            raise DirectoryInUse(f"Another process trains in {directory}; wait for it, or use another one.") from err
+        yield
+
+
+def _is_another_living(pid: int) -> bool:
     try:
-        write(temporary)
-        with temporary.open("rb") as file:
-            os.fsync(file.fileno())
-        temporary.rename(path)
-    finally:
-        temporary.unlink(missing_ok=True)
-    directory = os.open(path.parent, os.O_RDONLY)
-    try:
-        os.fsync(directory)
-    finally:
-        os.close(directory)
-    return path
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    except PermissionError:
+        pass
+    return pid != os.getpid()
 
 
 def _drop_from(path: Path, cycle: int) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from sldr_core.envs import make_envs
@@ -45,12 +45,14 @@ def evaluate(path: Path, episodes: int, seed: int) -> EvaluationResult:
     """
     policy = load_policy(path)
     config = policy.config
+    # The policy acts on the processor: the file may come from a machine with a GPU.
+    compute = resolve_compute(replace(config.compute, device="cpu"))
     envs = make_envs(
         config.task,
         config.phase,
         num_envs=min(episodes, MAX_SIMULATIONS),
         seed=seed + EVALUATION_SEED_OFFSET,
-        threads=resolve_compute(config.compute).threads,
+        threads=compute.threads,
         robot=config.scene.locomotion_robot,
         testing=True,
         variant=config.scene.variant,

@@ -14,14 +14,22 @@ from sldr_core.config import TrainConfig
 from sldr_core.nets.locomotion_model import LocomotionModel, LocomotionNets, Measured
 from sldr_core.records import Step
 from sldr_core.training.build import CHECKPOINT_CYCLES, Parts, build_training
-from sldr_core.training.checkpoint import CHECKPOINT_FILE, Counters, read_checkpoint, restore_training, write_checkpoint
+from sldr_core.training.checkpoint import (
+    Counters,
+    keep_previous,
+    read_newest,
+    restore_training,
+    write_checkpoint,
+)
 from sldr_core.training.cycle import collect, collect_random, learn
-from sldr_core.training.policy import BEST_POLICY_FILE, NEWEST_POLICY_FILE, write_policy
+from sldr_core.training.directory import alone_in
+from sldr_core.training.dump import keep_evidence
+from sldr_core.training.files import BEST_POLICY_FILE, CHECKPOINT_FILE, LOCOMOTION_FILE, NEWEST_POLICY_FILE
+from sldr_core.training.finite import NonFinite, check_metrics, check_weights
+from sldr_core.training.policy import write_policy
 from sldr_core.training.recorder import Recorder, StopReason
 from sldr_core.training.rollout import Collected, numpy_policy
 from sldr_core.training.testing import run_test
-
-LOCOMOTION_FILE = "locomotion.pt"
 
 
 @dataclass(frozen=True)
@@ -52,15 +60,15 @@ def train(
     Raises:
         SldrError: something that would fail again: a bad file, a missing model, a full disk, diverged numbers.
     """
-    checkpoint = recorder.directory / CHECKPOINT_FILE
-    # Read before anything is built: building would replace the replay file of another config.
-    content = read_checkpoint(checkpoint, config) if checkpoint.exists() else None
-    parts = build_training(config, recorder.directory, locomotion_models, gate_waived)
-    counters = restore_training(checkpoint, content, parts) if content else Counters()
-    try:
-        stopped = _Loop(parts, counters, recorder).run()
-    except _Cancelled:
-        stopped = "cancel"
+    with alone_in(recorder.directory):
+        # Read before anything is built: building would replace the replay file of another config.
+        kept = read_newest(recorder.directory, config)
+        parts = build_training(config, recorder.directory, locomotion_models, gate_waived)
+        counters = restore_training(kept, parts) if kept else Counters()
+        try:
+            stopped = _Loop(parts, counters, recorder).run()
+        except _Cancelled:
+            stopped = "cancel"
     return TrainResult(
         finished=stopped is None,
         stopped=stopped,
@@ -78,9 +86,20 @@ class _Loop:
         self._counters = counters
         self._recorder = recorder
         self._clock = time.monotonic() - counters.wall_seconds
+        self._cycle = 0
 
     def run(self) -> StopReason | None:
-        """Run cycles until the end, or a request to stop; return that request."""
+        """Run cycles until the end, or a request to stop; return that request.
+
+        Raises:
+            TrainingDiverged: a number is not finite; what it came from is kept in a file.
+        """
+        try:
+            return self._run()
+        except NonFinite as err:
+            raise keep_evidence(err, self._cycle, self._parts.config, self._recorder) from err
+
+    def _run(self) -> StopReason | None:
         if self._counters.cycle == 0:
             self._warm_up()
         while not self._is_finished():
@@ -94,14 +113,17 @@ class _Loop:
 
     def _warm_up(self) -> None:
         for _ in range(self._loop.warmup_cycles):
-            self._count(collect_random(self._parts, self._check))
+            collected, _ = collect_random(self._parts, self._check)
+            self._count(collected)
 
     def _run_cycle(self) -> None:
         counters = self._counters
+        self._cycle = counters.cycle + 1
         started = time.monotonic()
-        collected = collect(self._parts, self._check)
+        check_weights(self._parts.learner_states())
+        collected, metrics = collect(self._parts, self._check)
         collected_at = time.monotonic()
-        metrics = learn(self._parts, counters.updates, self._check)
+        metrics.update(learn(self._parts, counters.updates, self._check))
         learnt_at = time.monotonic()
         self._count(collected)
         counters.updates += self._loop.updates_per_cycle
@@ -115,6 +137,7 @@ class _Loop:
             metrics.update(self._test())
         counters.wall_seconds = time.monotonic() - self._clock
         metrics.update(self._progress())
+        check_metrics(metrics)
         self._recorder.log(self._step(), metrics)
 
     def _test(self) -> dict[str, float]:
@@ -167,7 +190,10 @@ class _Loop:
         )
 
     def _save_checkpoint(self) -> None:
-        write = partial(write_checkpoint, parts=self._parts, counters=self._counters)
+        def write(path: Path) -> None:
+            write_checkpoint(path, self._parts, self._counters)
+            keep_previous(self._recorder.directory)
+
         self._recorder.save_file(CHECKPOINT_FILE, "checkpoint", write)
 
     def _check(self) -> None:

@@ -11,7 +11,7 @@ import torch
 
 from sldr_core.config import TrainConfig, config_from_dict, config_to_dict
 from sldr_core.errors import BadFile, InvalidConfig
-from sldr_core.nets.files import load_tensors
+from sldr_core.nets.files import load_tensors, one_line, save_tensors
 from sldr_core.nets.locomotion_model import KIND as LOCOMOTION_KIND
 from sldr_core.nets.mlp import Mlp
 from sldr_core.nets.normalizer import Normalizer
@@ -22,8 +22,6 @@ from sldr_core.training.checkpoint import KIND as CHECKPOINT_KIND
 from sldr_core.training.checkpoint import Counters
 
 POLICY_KIND = "policy"
-NEWEST_POLICY_FILE = "policy-newest.pt"
-BEST_POLICY_FILE = "policy-best.pt"
 
 
 @dataclass(frozen=True)
@@ -53,7 +51,8 @@ class Policy:
 
 def write_policy(path: Path, parts: Parts, counters: Counters) -> None:
     """Write the training's online actor to `path`."""
-    torch.save(
+    save_tensors(
+        path,
         {
             "kind": POLICY_KIND,
             "config": config_to_dict(parts.config),
@@ -62,7 +61,6 @@ def write_policy(path: Path, parts: Parts, counters: Counters) -> None:
             "normalizer": parts.agent.normalizer.state_dict(),
             "actor": parts.agent.actor.state_dict(),
         },
-        path,
     )
 
 
@@ -83,7 +81,7 @@ def load_policy(path: Path, device: str = "cpu") -> Policy:
         actor = Mlp((view.size, *config.agent.hidden_sizes, actions), torch.Generator(), squash=True)
         actor.load_state_dict(actor_state)
     except (AttributeError, KeyError, TypeError, ValueError, RuntimeError, InvalidConfig) as err:
-        raise BadFile(f"{path} holds no usable policy ({err}).") from err
+        raise BadFile(f"{path} holds no usable policy ({one_line(err)}).") from err
     return Policy(config, content.get("epoch"), content.get("success_rate"), normalizer.to(device), actor.to(device))
 
 

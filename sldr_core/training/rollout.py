@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from sldr_core.config import ExplorationConfig
 from sldr_core.envs import Envs
 from sldr_core.records import Episodes, Floats
+from sldr_core.training.finite import check_episodes
 
 Act = Callable[[Floats, Floats], Floats]
 """Return actions `[N, A]` of observations `[N, D]` and goals `[N, G]`."""
@@ -58,7 +59,11 @@ class Collected:
 
 
 def collect_episodes(envs: Envs, act: Act, check: Check) -> Collected:
-    """Reset every simulation and run one episode in each."""
+    """Reset every simulation and run one episode in each.
+
+    Raises:
+        NonFinite: a number that was seen or done is not finite.
+    """
     now = envs.reset()
     length, count = envs.episode_length, envs.num_envs
     obs = np.empty((count, length + 1, envs.obs_size), dtype=np.float32)
@@ -71,8 +76,10 @@ def collect_episodes(envs: Envs, act: Act, check: Check) -> Collected:
         now = envs.step(action[:, t])
         check()
     obs[:, length], achieved[:, length] = now.obs, now.achieved
+    episodes = Episodes(obs, achieved, goal, action)
+    check_episodes(episodes)
     return Collected(
-        Episodes(obs, achieved, goal, action),
+        episodes,
         envs.success(now.achieved, now.goal),
         np.linalg.norm(now.achieved - now.goal, axis=1).astype(np.float32),
     )

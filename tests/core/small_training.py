@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -13,7 +14,8 @@ from sldr_core.config import TASKS, Phase, TrainConfig
 from sldr_core.config.tasks import FETCH_PUSH
 from sldr_core.nets.locomotion_model import LocomotionModel, LocomotionNets, Measured
 from sldr_core.presets import make_config
-from sldr_core.training import DirectoryRecorder, TrainResult, train
+from sldr_core.records import Step
+from sldr_core.training import DirectoryRecorder, StopReason, TrainResult, train
 from sldr_core.training.build import Parts, build_training
 from sldr_core.training.cycle import collect_random
 
@@ -33,7 +35,7 @@ TINY = {
     "rnd": {"outputs": 8},
     "curriculum": {"group_size": 8, "candidates": 6, "kept": 3},
 }
-"""Laid over the smoke preset: four cycles in a fraction of a second; the replay wraps around after nine."""
+"""Laid over the smoke preset: four cycles in a fraction of a second; the replay file begins anew after 31."""
 
 SHORT_PUSH = replace(
     FETCH_PUSH, name="ShortPush", episode_length=8, parts=(replace(FETCH_PUSH.parts[0], locomotion_task="ShortPush"),)
@@ -41,16 +43,37 @@ SHORT_PUSH = replace(
 """FetchPush with episodes that are over soon; `conftest.py` makes it known."""
 
 
-CODE_OF_A_TRAINING = """
-import json, sys
-from pathlib import Path
-from small_training import know_short_push
-from sldr_core.config import config_from_dict
-from sldr_core.training import DirectoryRecorder, train
-know_short_push()
-train(config_from_dict(json.loads(sys.argv[1])), DirectoryRecorder(Path(sys.argv[2])))
-"""
-"""What a process runs that trains a config, in JSON, in a directory; its two arguments."""
+class StoppingRecorder(DirectoryRecorder):
+    """Ask for a stop once so many lines are logged."""
+
+    def __init__(self, directory: Path, after: int, reason: StopReason) -> None:
+        super().__init__(directory)
+        self._left = after
+        self._reason: StopReason = reason
+
+    def log(self, step: Step, metrics: Mapping[str, float]) -> None:
+        super().log(step, metrics)
+        self._left -= 1
+        if self._left == 0:
+            self.request_stop(self._reason)
+
+
+class CrashingRecorder(DirectoryRecorder):
+    """End the training by an error nobody expected, once the line of this cycle is logged."""
+
+    def __init__(self, directory: Path, cycle: int) -> None:
+        super().__init__(directory)
+        self._cycle = cycle
+
+    def log(self, step: Step, metrics: Mapping[str, float]) -> None:
+        super().log(step, metrics)
+        if step.cycle == self._cycle:
+            raise ConnectionAbortedError
+
+
+def long_config() -> TrainConfig:
+    """Return 40 cycles: three checkpoints before the last one, and a replay file that begins anew."""
+    return tiny_config(epochs=2, cycles_per_epoch=20)
 
 
 def know_short_push() -> None:
@@ -87,6 +110,11 @@ def save_untrained_model(path: Path, task: str = SHORT_PUSH.name, spoil: float =
         weight.data += spoil
     LocomotionModel(nets, config, Measured(0.97, 3)).save(path)
     return path
+
+
+def contents_of(directory: Path) -> dict[str, bytes]:
+    """Return every file of a directory."""
+    return {path.name: path.read_bytes() for path in directory.iterdir()}
 
 
 def metrics_of(directory: Path) -> list[dict[str, Any]]:

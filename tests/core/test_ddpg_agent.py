@@ -161,13 +161,35 @@ def test_a_stream_without_weight_does_not_move_the_actor() -> None:
 def test_metrics_name_every_stream() -> None:
     metrics = make_agent().update(*draw_batch(0))
 
-    parts = ("loss", "q_mean", "q_min", "q_max", "target_clip_share")
-    expected = {f"critic/{stream}/{part}" for stream in STREAMS for part in parts}
-    assert set(metrics) == expected | {f"stream/{stream}/mean" for stream in STREAMS} | {
+    parts = ("loss", "q_mean", "q_min", "q_max", "target_clip_low_share", "target_clip_high_share")
+    assert set(metrics) == {f"critic/{stream}/{part}" for stream in STREAMS for part in parts} | {
+        "critic/weight_norm",
         "actor/loss",
         "actor/saturated_share",
+        "actor/weight_norm",
     }
-    assert metrics["stream/sldr/object0/mean"].item() == pytest.approx(draw_batch(0)[1][1].mean().item())
+
+
+def test_metrics_of_a_critic_are_those_of_its_values_and_targets() -> None:
+    agent = make_agent()
+    batch, _ = draw_batch(0)
+    # gamma is 0.9, so targets are clipped to [-10, 0]: a quarter of them each lies below and above.
+    quarters = torch.tensor([[-100.0, 100.0, -5.0, -5.0], [-1.0, -1.0, -1.0, 100.0]])
+    rewards = quarters.repeat_interleave(BATCH // 4, dim=1)
+    inputs = torch.cat([agent.features(batch.obs, batch.goal), batch.action], dim=-1)
+    values = agent.critics(inputs)[1, :, 0].detach()
+
+    metrics = {name: value.item() for name, value in agent.update(batch, rewards).items()}
+
+    assert metrics["critic/task/target_clip_low_share"] == 0.25
+    assert metrics["critic/task/target_clip_high_share"] == 0.25
+    assert metrics["critic/sldr/object0/target_clip_low_share"] == 0.0
+    assert metrics["critic/sldr/object0/target_clip_high_share"] == 0.25
+    assert metrics["critic/sldr/object0/q_mean"] == pytest.approx(values.mean().item(), rel=1e-5)
+    assert metrics["critic/sldr/object0/q_min"] == pytest.approx(values.min().item(), rel=1e-5)
+    assert metrics["critic/sldr/object0/q_max"] == pytest.approx(values.max().item(), rel=1e-5)
+    squares = sum(weight.square().sum().item() for weight in weights_of(agent.actor))
+    assert metrics["actor/weight_norm"] == pytest.approx(squares**0.5, rel=1e-5)
 
 
 def test_actions_stay_within_their_limits() -> None:

@@ -18,12 +18,19 @@ def test_targets_are_reward_plus_discounted_value_within_what_is_possible() -> N
     reward = torch.tensor([[-1.0, 0.0, -1.0, 0.0], [-0.5, -0.5, -0.25, 0.0]])
     next_q = torch.tensor([[-4.0, -2.0, -10.0, 3.0], [0.0, -1.0, 1.0, 0.0]])
 
-    target = td_target(reward, next_q, gamma=0.9)
+    target = td_target(reward, next_q, gamma=0.9, lowest=torch.tensor([-10.0, -10.0]))
 
     # -1 - 9 is exactly the lowest return of -10; 2.7 and 0.65 lie above 0.
     by_hand = torch.tensor([[-4.6, -1.8, -10.0, 0.0], [-0.5, -1.4, 0.0, 0.0]])
     torch.testing.assert_close(target, by_hand)
-    assert td_target(torch.tensor([[-1.0]]), torch.tensor([[-20.0]]), 0.9).item() == pytest.approx(-10.0)
+
+
+def test_each_stream_has_a_lowest_target_of_its_own() -> None:
+    reward, next_q = torch.full((2, 3), -1.0), torch.tensor([[-20.0, -5.0, -200.0]] * 2)
+
+    target = td_target(reward, next_q, gamma=0.9, lowest=torch.tensor([-10.0, -100.0]))
+
+    torch.testing.assert_close(target, torch.tensor([[-10.0, -5.5, -10.0], [-19.0, -5.5, -100.0]]))
 
 
 def test_each_stream_has_its_own_mean_squared_error() -> None:
@@ -52,7 +59,7 @@ def gradient_of_critics(critics: MlpStack, rewards: Tensor) -> list[Tensor]:
     """Return the gradient of the summed loss by each parameter, `[S, ...]`."""
     x = torch.randn((6, 3), generator=torch.Generator().manual_seed(1))
     q = critics(x)[..., 0]
-    target = td_target(rewards, torch.full_like(rewards, -1.0), 0.9)
+    target = td_target(rewards, torch.full_like(rewards, -1.0), 0.9, torch.full((len(rewards),), -10.0))
     return list(torch.autograd.grad(critic_losses(q, target).sum(), list(critics.parameters())))
 
 

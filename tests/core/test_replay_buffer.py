@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import shutil
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from sldr_core.errors import DiskTooFull
 from sldr_core.records import Episodes
-from sldr_core.replay import ReplayBuffer
+from sldr_core.replay import ReplayBuffer, replay_bytes
 
 LENGTH = 4
 SHAPES = {"obs": (LENGTH + 1, 2), "achieved": (LENGTH + 1, 3), "goal": (3,), "action": (LENGTH, 1), "w": (LENGTH, 2)}
@@ -100,19 +98,25 @@ def test_a_file_of_another_size_is_begun_anew(path: Path) -> None:
     assert all(not array.any() for array in bigger.arrays.values())
 
 
-def test_a_full_disk_is_told_with_what_is_needed_and_what_to_do(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def nearly_full(_: Path) -> object:
-        return shutil._ntuple_diskusage(total=10**12, used=10**12 - 10**9, free=10**9)  # pyright: ignore
+def test_every_page_of_the_file_has_its_place_on_the_disk_before_it_is_written(path: Path) -> None:
+    buffer = ReplayBuffer(path, {**SHAPES, "obs": (LENGTH + 1, 1000)}, capacity=50, slack=3)
 
-    monkeypatch.setattr(shutil, "disk_usage", nearly_full)
+    held = path.stat()
 
-    with pytest.raises(DiskTooFull, match=r"needs .* GB and its disk has 1\.0 GB free; lower replay\.capacity"):
-        ReplayBuffer(path, {**SHAPES, "obs": (LENGTH + 1, 1000)}, capacity=10**6, slack=0)
-    assert not path.exists()
+    assert held.st_size == buffer.file_size
+    assert held.st_blocks * 512 >= buffer.file_size
 
 
-def test_a_file_that_is_there_needs_no_further_disk(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    ReplayBuffer(path, SHAPES, capacity=7, slack=3)
-    monkeypatch.setattr(shutil, "disk_usage", lambda _: shutil._ntuple_diskusage(1, 1, 0))  # pyright: ignore
+def test_the_size_of_the_file_is_known_before_it_is_made(path: Path) -> None:
+    # Floats of one episode: 5 x 2 + 5 x 3 + 3 + 4 x 1 + 4 x 2 of the parts, and one that says whether anything moved.
+    assert replay_bytes(SHAPES, slots=10) == 10 * 41 * 4
+    assert ReplayBuffer(path, SHAPES, capacity=7, slack=3).file_size == path.stat().st_size == 10 * 41 * 4
 
-    assert len(ReplayBuffer(path, SHAPES, capacity=7, slack=3)) == 0
+
+def test_a_file_with_holes_is_filled(path: Path) -> None:
+    with path.open("wb") as file:
+        file.truncate(replay_bytes(SHAPES, slots=10_000))
+
+    ReplayBuffer(path, SHAPES, capacity=9_000, slack=1_000)
+
+    assert path.stat().st_blocks * 512 >= path.stat().st_size

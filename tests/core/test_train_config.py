@@ -63,6 +63,8 @@ def other_value(path: tuple[str, ...], value: Any) -> Any:
         return OTHER_WORDS[path[-1]][0]
     if isinstance(value, list):
         return value[:-1]
+    if path[-1].startswith("lowest_"):
+        return value - 100.0
     return value + 1 if isinstance(value, int) else value * 0.9 + 0.001
 
 

@@ -56,6 +56,14 @@ def test_the_tables_name_the_newest_migration() -> None:
     assert ScriptDirectory.from_config(config).get_current_head() == SCHEMA_REVISION
 
 
+def test_making_the_tables_is_not_worth_a_word(settings: Settings) -> None:
+    opening = python(
+        "import logging; logging.basicConfig(level=logging.INFO); open_database(load_settings())", settings
+    )
+
+    assert opening.communicate() == ("", "")
+
+
 def test_opening_again_keeps_what_is_there(db: Database, settings: Settings) -> None:
     run_id = queued_run(db)
     again = open_database(settings)

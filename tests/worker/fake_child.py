@@ -20,7 +20,7 @@ from worker.recorder import StoreRecorder
 from worker.words import StopWord
 
 CYCLE_S = 0.02
-LAST_CYCLE = {"counts": 5, "counts-far": 100, "lasts": 100_000, "saves": 100_000}
+LAST_CYCLE = {"counts": 5, "counts-far": 100, "strolls": 200, "lasts": 100_000, "saves": 100_000}
 SAVE_CYCLES = 5
 """`saves` writes a checkpoint every so many cycles."""
 
@@ -80,11 +80,14 @@ def train(config: TrainConfig, recorder: StoreRecorder, locomotion_models: Seque
     if behaviour not in LAST_CYCLE:
         recorder.log(step(1), {"test/success_rate": 0.25})
     match behaviour:
-        case "counts" | "counts-far" | "lasts":
+        case "counts" | "counts-far" | "strolls" | "lasts":
             return count(recorder, LAST_CYCLE[behaviour])
         case "saves":
             return save(recorder, LAST_CYCLE[behaviour])
         case "is-deaf":
+            time.sleep(3600.0)
+        case "hangs-once" if not (recorder.directory / "hung").exists():
+            (recorder.directory / "hung").touch()
             time.sleep(3600.0)
         case "diverges":
             raise TrainingDiverged("Metric critic/task/loss became nan; lower the learning rate.")

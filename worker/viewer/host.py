@@ -8,11 +8,14 @@ import os
 import signal
 import socket
 import time
+import uuid
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection
 from multiprocessing.context import SpawnProcess
 from pathlib import Path
+
+import psutil
 
 from backend.store import viewer_sessions
 from backend.store.database import Database
@@ -22,11 +25,11 @@ from sldr_core.errors import SldrError
 from worker.viewer.newest_policy import NewestPolicies
 from worker.viewer.reports import Broken, Job, Ready, Report, Watched
 
-LONGEST_NAME = 20
-"""Letters of the machine's name in the host's id, which the store keeps short."""
-
 ENDING_S = 3.0
 """A session process that was asked to end and has not by then is killed [s]."""
+
+ORPHANED = "The 3D viewer was started again; open the view once more."
+"""What a session says whose host is no more."""
 
 Target = Callable[[Job, Connection], None]
 """What a session process runs."""
@@ -73,7 +76,7 @@ class Host:
     settings: Settings
     target: Target
     limits: Limits = field(default_factory=Limits)
-    host_id: str = field(default_factory=lambda: f"{socket.gethostname()[:LONGEST_NAME]}-{os.getpid()}")
+    host_id: str = field(default_factory=lambda: uuid.uuid4().hex[:12])
     served: dict[str, Served] = field(default_factory=dict)
     _beat_at: float = field(default=-1e9, init=False)
     _policies: NewestPolicies = field(init=False)
@@ -83,10 +86,8 @@ class Host:
         self._policies = NewestPolicies(self.database, self.settings)
 
     def begin(self) -> None:
-        """Announce the host, and end what an earlier one left open."""
-        viewer_sessions.beat_host(self.database, self.host_id, os.getpid())
-        message = "The 3D viewer was started again; open the view once more."
-        viewer_sessions.end_sessions_of_other_hosts(self.database, self.host_id, message)
+        """Announce the host, and end what dead ones left open."""
+        self._beat(time.monotonic())
 
     def tick(self) -> None:
         """Hear the sessions, end those that are over, start those that are asked for."""
@@ -191,7 +192,9 @@ class Host:
 
     def _beat(self, now: float) -> None:
         self._beat_at = now
-        viewer_sessions.beat_host(self.database, self.host_id, os.getpid())
+        machine = socket.gethostname()
+        viewer_sessions.beat_host(self.database, self.host_id, os.getpid(), machine)
+        viewer_sessions.end_orphaned_sessions(self.database, self.host_id, machine, _is_another_process, ORPHANED)
         for served in self.served.values():
             if served.clients:
                 viewer_sessions.touch(self.database, served.session_id)
@@ -202,6 +205,11 @@ class Host:
             self._policies.renew(served.run_id, served.policy)
         except (SldrError, FilesUnavailable) as err:
             log.warning("session %s goes on with the policy it has: %s", served.session_id, err)
+
+
+def _is_another_process(pid: int) -> bool:
+    """Tell whether a process of this machine lives and is not this one, which may have inherited the number."""
+    return pid != os.getpid() and psutil.pid_exists(pid)
 
 
 def _ending(exit_code: int | None) -> str:

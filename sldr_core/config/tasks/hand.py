@@ -24,12 +24,14 @@ class _Object:
     ignore_z: bool
     """Whether the object looks the same from all sides of its own axis."""
     gamma: float
+    lowest_return: float
+    """Lowest target of a critic; 0 where it is what the discount allows."""
     original_distance: float
 
 
-_EGG = _Object("Egg", "hand/manipulate_egg.xml", True, False, 0.99, 0.01)
-_BLOCK = _Object("Block", "hand/manipulate_block.xml", True, False, 0.99, 0.01)
-_PEN = _Object("Pen", "hand/manipulate_pen.xml", False, True, 0.98, 0.05)
+_EGG = _Object("Egg", "hand/manipulate_egg.xml", True, False, 0.99, 0.0, 0.01)
+_BLOCK = _Object("Block", "hand/manipulate_block.xml", True, False, 0.99, 0.0, 0.01)
+_PEN = _Object("Pen", "hand/manipulate_pen.xml", False, True, 0.98, -100.0, 0.05)
 
 
 def _task(
@@ -70,6 +72,9 @@ def _task(
         paper_locomotion_epochs=50,
         gamma=thing.gamma,
         locomotion_gamma=0.99,
+        # As the authors have it: with both to reach, only the critics of the parts have the object's own limit.
+        lowest_return=0.0 if placed and turned else thing.lowest_return,
+        lowest_auxiliary_return=thing.lowest_return,
         parts=parts,
         original={"goal": {"distance": thing.original_distance}} if placed else {},
     )

@@ -217,6 +217,10 @@ class TaskSpec:
     """Discount of the manipulation phase."""
     locomotion_gamma: float
     """Discount of the locomotion phase."""
+    lowest_return: float = 0.0
+    """Lowest target of the task's critic in the manipulation phase; 0 where it is what the discount allows."""
+    lowest_auxiliary_return: float = 0.0
+    """Lowest target of the critics of all other rewards; 0 where it is that of the task's."""
     parts: tuple[Part, ...]
     """The parts that a locomotion model can reward, one critic for each."""
     original: Mapping[str, Any] = field(default_factory=dict[str, Any], hash=False)

@@ -1,0 +1,38 @@
+"""Keeping what a number came from that is not finite, for a person to look at."""
+
+from __future__ import annotations
+
+from functools import partial
+
+from sldr_core.config import TrainConfig, config_to_dict
+from sldr_core.errors import TrainingDiverged
+from sldr_core.nets.files import save_tensors
+from sldr_core.training.finite import NonFinite
+from sldr_core.training.recorder import Recorder
+
+KIND = "dump"
+"""What such a file calls itself; `sldr_core.nets.files.load_tensors` reads it."""
+
+
+def keep_evidence(err: NonFinite, cycle: int, config: TrainConfig, recorder: Recorder) -> TrainingDiverged:
+    """Write the evidence to `dump-cycle-<n>.pt`; return the error that tells of it.
+
+    Args:
+        err: what was found.
+        cycle: the cycle it was found in; 0 is the warm-up.
+        config: what was trained.
+        recorder: where the file goes.
+    """
+    content = {
+        "kind": KIND,
+        "config": config_to_dict(config),
+        "cycle": cycle,
+        "culprit": err.culprit,
+        "value": err.value,
+        "evidence": err.evidence,
+    }
+    path = recorder.save_file(f"dump-cycle-{cycle}.pt", KIND, partial(save_tensors, content=content))
+    return TrainingDiverged(
+        f"{err.culprit} became {err.value} in cycle {cycle}: training was stopped; lower agent.learning_rate or check "
+        f"the task's numbers. What it came from is kept in {path}."
+    )

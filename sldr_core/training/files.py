@@ -1,0 +1,62 @@
+"""The names of a run's files, and how large each becomes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import torch
+
+from sldr_core.config import TrainConfig
+
+METRICS_FILE = "metrics.jsonl"
+REPLAY_FILE = "replay.bin"
+CHECKPOINT_FILE = "checkpoint.pt"
+PREVIOUS_CHECKPOINT_FILE = "checkpoint-previous.pt"
+"""The one before, for when the newest turns out to be damaged."""
+DAMAGED_CHECKPOINT_FILE = "checkpoint-damaged.pt"
+"""One that could not be used, set aside."""
+NEWEST_POLICY_FILE = "policy-newest.pt"
+BEST_POLICY_FILE = "policy-best.pt"
+LOCOMOTION_FILE = "locomotion.pt"
+
+METRICS_LINE = 8192
+"""More than the line of a cycle ever takes [bytes]."""
+
+ADAM_COPIES = 3
+"""A weight is kept beside the two moments that Adam has of it."""
+
+
+def planned_sizes(
+    config: TrainConfig, replay_bytes: int, envs: Mapping[str, Any], learners: Sequence[Mapping[str, Any]]
+) -> dict[str, int]:
+    """Return how large a run's files become at most [bytes], by name.
+
+    Args:
+        config: what is trained.
+        replay_bytes: size of the replay file [bytes].
+        envs: state of the environments.
+        learners: states of everything that learns, before its first update.
+    """
+    weights = sum(_bytes_in(learner) for learner in learners)
+    checkpoint = ADAM_COPIES * weights + 2 * _bytes_in(envs)
+    return {
+        REPLAY_FILE: replay_bytes,
+        CHECKPOINT_FILE: checkpoint,
+        PREVIOUS_CHECKPOINT_FILE: checkpoint,
+        "the next checkpoint": checkpoint,
+        NEWEST_POLICY_FILE: weights,
+        BEST_POLICY_FILE: weights,
+        **({LOCOMOTION_FILE: weights} if config.phase == "locomotion" else {}),
+        METRICS_FILE: METRICS_LINE * config.total_cycles,
+    }
+
+
+def _bytes_in(value: Any) -> int:
+    """Return the bytes of all tensors and arrays in nested states."""
+    if isinstance(value, torch.Tensor | np.ndarray):
+        return value.nbytes
+    if isinstance(value, Mapping):
+        return sum(_bytes_in(part) for part in value.values())
+    return sum(_bytes_in(part) for part in value) if isinstance(value, list | tuple) else 0

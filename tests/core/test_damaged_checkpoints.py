@@ -1,0 +1,137 @@
+"""A damaged checkpoint costs a training the cycles since the one before, never the run; and what happened is told."""
+
+from __future__ import annotations
+
+import logging
+from pathlib import Path
+
+import pytest
+import torch
+from small_training import (
+    CrashingRecorder,
+    StoppingRecorder,
+    assert_same_training,
+    contents_of,
+    long_config,
+    run,
+    tiny_config,
+)
+
+from sldr_core.errors import BadFile, DirectoryInUse
+from sldr_core.training import DirectoryRecorder, train
+from sldr_core.training.directory import alone_in
+
+DAMAGES = {
+    "cut-short": lambda path: path.write_bytes(path.read_bytes()[:-1000]),
+    "empty": lambda path: path.write_bytes(b""),
+    "gone": lambda path: path.unlink(),
+    "a-part-lost": lambda path: torch.save(
+        {name: part for name, part in torch.load(path, weights_only=True).items() if name != "agent"}, path
+    ),
+}
+
+
+def cycle_of(path: Path) -> int:
+    return torch.load(path, weights_only=True)["counters"]["cycle"]
+
+
+@pytest.fixture(scope="module")
+def uninterrupted(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    directory = tmp_path_factory.mktemp("uninterrupted")
+    run(long_config(), directory)
+    return directory
+
+
+@pytest.fixture
+def stopped(tmp_path: Path) -> Path:
+    """Return the directory of a training that was stopped after cycle 33, with checkpoints of cycles 30 and 33."""
+    train(long_config(), StoppingRecorder(tmp_path, 33, "shutdown"))
+    return tmp_path
+
+
+def test_the_previous_checkpoint_is_kept_beside_the_newest(stopped: Path) -> None:
+    assert (cycle_of(stopped / "checkpoint.pt"), cycle_of(stopped / "checkpoint-previous.pt")) == (33, 30)
+
+
+@pytest.mark.parametrize("damage", DAMAGES)
+def test_a_training_goes_on_from_the_previous_checkpoint_to_the_same_bits(
+    damage: str, stopped: Path, uninterrupted: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    newest = stopped / "checkpoint.pt"
+    DAMAGES[damage](newest)
+    damaged = newest.read_bytes() if newest.exists() else None
+
+    run(long_config(), stopped)
+
+    (told,) = [record.getMessage() for record in caplog.records if record.levelno == logging.WARNING]
+    assert f"{newest}" in told
+    assert told.endswith(f"Going on from {stopped / 'checkpoint-previous.pt'}, after cycle 30.")
+    assert_same_training(stopped, uninterrupted)
+    if damaged is not None:
+        assert (stopped / "checkpoint-damaged.pt").read_bytes() == damaged
+
+
+def test_the_replay_file_serves_the_previous_checkpoint_until_the_last_moment(
+    tmp_path: Path, uninterrupted: Path
+) -> None:
+    with pytest.raises(ConnectionAbortedError):
+        train(long_config(), CrashingRecorder(tmp_path, 39))
+    assert cycle_of(tmp_path / "checkpoint-previous.pt") == 20
+    (tmp_path / "checkpoint.pt").write_bytes(b"damaged")
+
+    run(long_config(), tmp_path)
+
+    assert_same_training(tmp_path, uninterrupted)
+
+
+def test_a_damaged_checkpoint_never_takes_the_place_of_the_previous_one(stopped: Path) -> None:
+    (stopped / "checkpoint.pt").write_bytes(b"damaged")
+
+    train(long_config(), StoppingRecorder(stopped, 1, "shutdown"))
+
+    assert (cycle_of(stopped / "checkpoint.pt"), cycle_of(stopped / "checkpoint-previous.pt")) == (31, 30)
+
+
+def test_a_whole_checkpoint_is_used_without_a_word(stopped: Path, caplog: pytest.LogCaptureFixture) -> None:
+    run(long_config(), stopped)
+
+    assert caplog.records == []
+
+
+def test_two_damaged_checkpoints_are_told_and_nothing_is_touched(stopped: Path) -> None:
+    for name in ("checkpoint.pt", "checkpoint-previous.pt"):
+        (stopped / name).write_bytes(b"damaged")
+    before = contents_of(stopped)
+
+    with pytest.raises(BadFile, match=r"checkpoint\.pt is corrupt or no file of ours"):
+        run(long_config(), stopped)
+
+    assert contents_of(stopped) == before
+
+
+def test_another_config_is_refused_whatever_the_previous_checkpoint_is(stopped: Path) -> None:
+    other = tiny_config(epochs=2, cycles_per_epoch=20, updates_per_cycle=3)
+    before = contents_of(stopped)
+
+    with pytest.raises(BadFile, match="was made by another config"):
+        run(other, stopped)
+
+    assert contents_of(stopped) == before
+
+
+def test_temporary_files_of_killed_processes_are_removed_and_those_of_living_ones_stay(tmp_path: Path) -> None:
+    living = 1
+    names = [".checkpoint.pt.4194305.tmp", ".metrics.jsonl.4194306.tmp", f".policy-best.pt.{living}.tmp", ".notes.tmp"]
+    for name in names:
+        (tmp_path / name).touch()
+
+    DirectoryRecorder(tmp_path)
+
+    assert sorted(path.name for path in tmp_path.iterdir()) == sorted(names[2:])
+
+
+def test_two_trainings_never_write_one_directory(tmp_path: Path) -> None:
+    with alone_in(tmp_path), pytest.raises(DirectoryInUse, match="Another process trains in"):
+        run(long_config(), tmp_path)
+
+    assert run(long_config(), tmp_path).finished
