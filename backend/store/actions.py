@@ -11,7 +11,7 @@ from sqlalchemy import Connection, select
 
 from backend.store.database import Database, current_time
 from backend.store.dependents import Held, hold_run, settle_dependents, why_held
-from backend.store.errors import NotFound, Refused, WrongState
+from backend.store.errors import NotFound, Refused, Unstorable, WrongState
 from backend.store.states import ENDED, Event, RunState, change_state
 from backend.store.tables import run_needs, runs
 
@@ -83,7 +83,7 @@ def act(db: Database, action: Action, run_id: str) -> str:
 def _try(db: Database, action: Action, run_id: str) -> ActionResult:
     try:
         return ActionResult(run_id, True, act(db, action, run_id))
-    except (NotFound, WrongState, Refused) as err:
+    except (NotFound, WrongState, Refused, Unstorable) as err:
         return ActionResult(run_id, False, str(err))
 
 

@@ -13,7 +13,9 @@ from collections.abc import Sequence
 
 import tyro
 
+from backend.store.engines import open_engine, parse_address
 from backend.store.settings import load_settings
+from backend.store.storage import FileStorage
 from sldr_core.errors import InvalidConfig, SldrError
 from worker.cli.children import Child
 
@@ -51,6 +53,9 @@ def serve(host: str = "127.0.0.1", port: int = 8000, workers: int = 1) -> int:
         raise InvalidConfig({"workers": f"it must be 0 or more, got {workers}"})
     check_port(host, port)
     settings = load_settings()
+    # An address that cannot work is told here, once, and not by every child again and again.
+    open_engine(parse_address(settings.database_url)).dispose()
+    FileStorage(settings)
     environment = {**os.environ, **settings.as_environment()}
     commands = {
         "API": ["backend.api", "--host", host, "--port", str(port)],
