@@ -18,7 +18,8 @@ check_web-test() { npm --prefix web run --silent test; }
 check_pytest() {
     SLDR_CHROMIUM=$(.ci/find-chromium.sh) || return
     export SLDR_CHROMIUM
-    .venv/bin/pytest
+    # Most tests wait for other processes; each file stays in one process, for what its tests share.
+    .venv/bin/pytest --numprocesses "$(nproc)" --dist loadfile
 }
 
 check_client() {

@@ -17,9 +17,15 @@ main() {
     check_node || unmet=1
     ((unmet == 0)) || exit 1
     check_rendering
-    [[ $purpose != test ]] || check_chromium
+    if [[ $purpose == test ]]; then
+        check_chromium
+        check_postgres
+    fi
     install_missing
-    [[ $purpose != test ]] || "$here/find-chromium.sh" >/dev/null
+    if [[ $purpose == test ]]; then
+        "$here/find-chromium.sh" >/dev/null
+        "$here/find-postgres.sh" >/dev/null
+    fi
 }
 
 check_python() {
@@ -58,6 +64,10 @@ check_chromium() {
     "$here/find-chromium.sh" >/dev/null 2>&1 && return
     # Ubuntu has it as a snap only, which containers cannot install: find-chromium.sh says what to do.
     [[ $(os_name) == ubuntu ]] || required+=(chromium)
+}
+
+check_postgres() {
+    "$here/find-postgres.sh" >/dev/null 2>&1 || required+=(postgresql)
 }
 
 os_name() {

@@ -1,13 +1,19 @@
-"""What every test may use: a browser that is there already, and a port that is free."""
+"""What every test may use: a browser that is there already, a port that is free, and a store on either engine."""
 
 from __future__ import annotations
 
 import os
 import socket
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
+from postgres_server import PostgresServer
+from store_engines import PostgresStores, SqliteStores, Stores
+
+from backend.store.database import Database, open_database
+from backend.store.settings import Settings
 
 CHROMIUM_ARGUMENTS = [
     "--no-sandbox",  # tests may run as root, in a container
@@ -52,3 +58,52 @@ def find_free_port() -> Callable[[], int]:
 def free_port(find_free_port: Callable[[], int]) -> int:
     """Return a port on which nothing listens."""
     return find_free_port()
+
+
+@pytest.fixture(scope="session")
+def sqlite_stores(tmp_path_factory: pytest.TempPathFactory) -> SqliteStores:
+    """Return a way to get fresh SQLite stores."""
+    return SqliteStores(tmp_path_factory.mktemp("sqlite"))
+
+
+@pytest.fixture(scope="session")
+def postgres_server() -> Iterator[PostgresServer]:
+    """Return a running PostgreSQL server."""
+    server = PostgresServer()
+    server.start()
+    yield server
+    server.stop()
+    server.remove()
+
+
+@pytest.fixture(scope="session")
+def postgres_stores(postgres_server: PostgresServer, tmp_path_factory: pytest.TempPathFactory) -> PostgresStores:
+    """Return a way to get fresh PostgreSQL stores."""
+    return PostgresStores(postgres_server, tmp_path_factory.mktemp("postgresql"))
+
+
+@pytest.fixture(scope="session")
+def engine() -> str:
+    """Return the engine of the test's store; rooms and tests that want both parametrise it."""
+    return "sqlite"
+
+
+@pytest.fixture(scope="session")
+def stores(engine: str, request: pytest.FixtureRequest) -> Stores:
+    """Return a way to get fresh stores on the test's engine."""
+    return request.getfixturevalue("sqlite_stores" if engine == "sqlite" else "postgres_stores")
+
+
+@pytest.fixture
+def settings(stores: Stores, tmp_path: Path) -> Iterator[Settings]:
+    """Return a fresh data directory with an empty store."""
+    with stores.fresh(tmp_path) as settings:
+        yield settings
+
+
+@pytest.fixture
+def db(settings: Settings) -> Iterator[Database]:
+    """Return the store of the test's data directory."""
+    database = open_database(settings)
+    yield database
+    database.close()

@@ -1,4 +1,4 @@
-"""`python -m worker`: train queued runs on this machine until told to end."""
+"""`python -m worker`: train queued runs, on this machine or on a cluster, until told to end."""
 
 from __future__ import annotations
 
@@ -7,24 +7,25 @@ import logging
 import signal
 import sys
 
-from backend.store.database import open_database
+from backend.store.database import Database, open_database
 from backend.store.errors import StoreUnavailable
-from backend.store.settings import load_settings
-from sldr_core.errors import SldrError
+from backend.store.settings import Settings, load_settings
+from sldr_core.errors import InvalidConfig, SldrError
 from worker.executors.local import LocalExecutor
+from worker.executors.ray_needs import CORES_OF_A_RUN
+from worker.machine import describe_machine, find_gpus
 from worker.supervisor import Supervisor
 
 
 def main() -> int:
     """Run a supervisor; SIGTERM and SIGINT hand its runs back and end it."""
-    parser = argparse.ArgumentParser(prog="python -m worker", description="Train queued runs until told to end.")
-    parser.add_argument("--slots", type=int, default=1, help="runs trained at the same time (default: 1)")
-    slots: int = parser.parse_args().slots
+    options = _parse()
     logging.basicConfig(level=logging.INFO, format="%(asctime)s %(message)s")
     settings = load_settings()
     try:
         db = open_database(settings)
-        supervisor = Supervisor(db, LocalExecutor(settings), slots)
+        make = {"local": _work_here, "ray": _work_on_cluster}[options.executor]
+        supervisor = make(options, db, settings)
     except (SldrError, StoreUnavailable) as err:
         print(err, file=sys.stderr)
         return 2
@@ -33,6 +34,38 @@ def main() -> int:
     supervisor.run()
     db.close()
     return 0
+
+
+def _parse() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="python -m worker", description="Train queued runs until told to end.")
+    parser.add_argument(
+        "--slots", type=int, help="runs trained at the same time (default: 1; on a cluster: all that fit)"
+    )
+    parser.add_argument("--executor", choices=("local", "ray"), default="local", help="where to train")
+    parser.add_argument("--address", help="host:port of the cluster's head")
+    parser.add_argument(
+        "--cores", type=int, default=CORES_OF_A_RUN, help="cores of a run on a cluster that names no threads"
+    )
+    return parser.parse_args()
+
+
+def _work_here(options: argparse.Namespace, db: Database, settings: Settings) -> Supervisor:
+    gpus = find_gpus()
+    executor = LocalExecutor(settings, gpus=gpus)
+    return Supervisor(db, executor, 1 if options.slots is None else options.slots, machine=describe_machine(gpus))
+
+
+def _work_on_cluster(options: argparse.Namespace, db: Database, settings: Settings) -> Supervisor:
+    if options.address is None:
+        raise InvalidConfig({"address": "name the cluster's head as host:port; `sldr node --head` prints it"})
+    from worker.executors import ray_access  # Ray is an extra, and slow to import.
+
+    ray_access.connect(options.address, settings.home)
+    from worker.executors.ray import RayExecutor
+
+    executor = RayExecutor(settings, options.cores)
+    slots = executor.count_slots() if options.slots is None else options.slots
+    return Supervisor(db, executor, slots, machine=executor.describe())
 
 
 if __name__ == "__main__":

@@ -10,25 +10,29 @@ import faulthandler
 import fcntl
 import logging
 import os
+import socket
 import sys
 import threading
 import time
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Generator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import IO, Protocol
 
+from backend.store.attempts import note_host
 from backend.store.claims import Claim, claim_from_json
 from backend.store.database import Database, open_database
-from backend.store.errors import StaleFence
+from backend.store.errors import StaleFence, StoreUnavailable
 from backend.store.outcomes import Cancelled, Failed, HandedBack, Outcome, Paused, Succeeded
 from backend.store.queue import finish
 from backend.store.settings import Settings, load_settings
 from sldr_core.config import TrainConfig
 from sldr_core.errors import SldrError
 from sldr_core.records import Step
+from worker.claimed_files import bring_claimed_run, send_log
 from worker.locomotion_files import find_locomotion_models
 from worker.mortality import end_with_parent
+from worker.patience import insist
 from worker.recorder import Curves, StoreRecorder, WriteCurves
 from worker.words import STOP_WORDS, StopWord
 
@@ -37,6 +41,8 @@ LOCK_PATIENCE_S = 10.0
 """How long an earlier attempt's process may take to let go of the run's directory [s]."""
 LOCK_RETRY_S = 10.0
 """How long a run waits in the queue when it did not [s]."""
+STORE_RETRY_S = 60.0
+"""How long a run waits in the queue when the place of its files could not be used for long [s]."""
 EXIT_ORPHANED = 70
 EXIT_STALE = 71
 
@@ -62,8 +68,14 @@ class TrainResult(Protocol):
         ...
 
 
-Train = Callable[[TrainConfig, StoreRecorder, Sequence[Path]], TrainResult]
-"""A training: `sldr_core.training.train`, or a short one in tests."""
+class Train(Protocol):
+    """A training: `sldr_core.training.train`, or a short one in tests."""
+
+    def __call__(
+        self, config: TrainConfig, recorder: StoreRecorder, locomotion_models: Sequence[Path], gate_waived: bool
+    ) -> TrainResult:
+        """Train until the end or until the recorder asks to stop."""
+        ...
 
 
 class DirectoryBusy(Exception):
@@ -83,11 +95,11 @@ def run_child(train: Train, write_curves: WriteCurves | None = None) -> int:
     claim = claim_from_json(sys.stdin.readline())
     requests = StopRequests(sys.stdin)
     settings = load_settings()
-    db = open_database(settings)
-    log.info("Attempt %d of run %s begins in process %d.", claim.attempt, claim.run_id, os.getpid())
+    db = insist(lambda: open_database(settings))
     try:
         outcome = _attempt(db, settings, claim, requests, train, write_curves)
-        finish(db, claim, outcome)
+        send_log(db, settings, claim)
+        insist(lambda: finish(db, claim, outcome))
     except StaleFence as err:
         log.error("%s", err)
         return EXIT_STALE
@@ -128,13 +140,20 @@ def _attempt(
     """Train, and turn whatever happens into an outcome; only a stale fence leaves as an error."""
     try:
         with _hold_directory(settings.run_directory(claim.run_id)):
-            models = find_locomotion_models(db, settings, claim)
+            # Only now is it sure that nobody else writes there; an attempt that is over must not begin.
+            insist(lambda: note_host(db, claim, socket.gethostname()))
+            bring_claimed_run(db, settings, claim)
+            log.info("Attempt %d of run %s begins in process %d.", claim.attempt, claim.run_id, os.getpid())
+            models = insist(lambda: find_locomotion_models(db, settings, claim))
             with StoreRecorder(db, settings, claim, requests.newest, write_curves) as recorder:
-                result = train(claim.config, recorder, models)
+                result = train(claim.config, recorder, models, claim.gate_waived)
     except DirectoryBusy as err:
         return HandedBack(str(err), LOCK_RETRY_S)
     except StaleFence:
         raise
+    except StoreUnavailable as err:
+        log.error("%s", err)
+        return HandedBack(f"{err} It goes on from its checkpoint.", STORE_RETRY_S)
     except SldrError as err:
         log.error("%s", err)
         return Failed(str(err), retry=False)
@@ -184,10 +203,12 @@ def _hold_directory(directory: Path) -> Generator[None]:
         yield
 
 
-def _train(config: TrainConfig, recorder: StoreRecorder, locomotion_models: Sequence[Path]) -> TrainResult:
+def _train(
+    config: TrainConfig, recorder: StoreRecorder, locomotion_models: Sequence[Path], gate_waived: bool
+) -> TrainResult:
     from sldr_core.training import train  # Brings PyTorch and MuJoCo, which tests of this process do without.
 
-    return train(config, recorder, locomotion_models)
+    return train(config, recorder, locomotion_models, gate_waived)
 
 
 def _write_curves(path: Path, title: str, steps: Sequence[Step], values: Curves) -> None:

@@ -11,6 +11,8 @@ from backend.store.database import Database
 from backend.store.errors import StoreUnavailable
 from backend.store.queue import heartbeat
 from backend.store.workers import beat
+from worker.machine import memory_used
+from worker.presence import Presence
 
 log = logging.getLogger(__name__)
 
@@ -24,6 +26,7 @@ class Heart:
         worker_id: str,
         held: Callable[[], Sequence[Claim]],
         on_lost: Callable[[Claim], None],
+        presence: Presence,
         interval_s: float,
         lease_s: float,
     ) -> None:
@@ -31,6 +34,7 @@ class Heart:
         self._worker_id = worker_id
         self._held = held
         self._on_lost = on_lost
+        self._presence = presence
         self._interval_s = interval_s
         self._lease_s = lease_s
         self._stopped = threading.Event()
@@ -60,9 +64,10 @@ class Heart:
 
     def _beat(self) -> None:
         try:
-            beat(self._db, self._worker_id)
+            beat(self._db, self._worker_id, memory_used())
             for claim in self._held():
                 if not heartbeat(self._db, claim, lease_s=self._lease_s).alive:
                     self._on_lost(claim)
         except StoreUnavailable as err:
+            self._presence.note_outage()
             log.warning("No heartbeat this time, the next one tries again: %s", err)

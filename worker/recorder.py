@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import logging
 import math
 import time
@@ -13,13 +12,16 @@ from typing import Protocol
 from backend.store.claims import Claim
 from backend.store.database import Database
 from backend.store.errors import StaleFence, StoreUnavailable
-from backend.store.files import register_file
 from backend.store.metrics import MetricPoint, read_metrics
+from backend.store.outcomes import CHECKPOINT_KIND
 from backend.store.progress import Progress, find_progress
 from backend.store.settings import Settings
+from backend.store.storage import FileStorage
 from sldr_core.errors import TrainingDiverged
 from sldr_core.records import Step
+from worker.file_keeper import FileKeeper
 from worker.metric_writer import MetricWriter
+from worker.patience import insist
 from worker.words import StopWord
 
 Curves = Mapping[str, Sequence[float | None]]
@@ -51,10 +53,10 @@ class StoreRecorder:
         write_curves: WriteCurves | None = None,
     ) -> None:
         self._db = db
-        self._home = settings.home
         self._directory = settings.run_directory(claim.run_id)
         self._directory.mkdir(parents=True, exist_ok=True)
         self._claim = claim
+        self._keeper = FileKeeper(db, FileStorage(settings), claim)
         self._stop_requested = stop_requested
         self._write_curves = write_curves
         self._curves_saved_at = time.monotonic()
@@ -91,22 +93,26 @@ class StoreRecorder:
                 self._save_curves()
 
     def save_file(self, name: str, kind: str, write: Callable[[Path], None]) -> Path:
-        """Write a file of the run safely, and register it with size and checksum.
+        """Write a file of the run safely, and keep it where other machines find it, with size and checksum.
 
         Raises:
             StaleFence: the run was given to another worker.
+            StoreUnavailable: the place that machines share files through could not be used for minutes.
         """
         # PyTorch comes with this import; a training that saves files has it loaded anyway.
         from sldr_core.training import write_atomically
 
         self._writer.check()
+        if kind == CHECKPOINT_KIND:
+            # Another attempt goes on after the checkpoint, so what was logged before it must not be lost with this one.
+            self._writer.flush()
         path = write_atomically(self._directory / name, write)
-        size, digest = path.stat().st_size, checksum(path)
-        register_file(self._db, self._claim, name, kind, str(path.relative_to(self._home)), size, digest)
+        self._keeper.keep(name, kind, path)
+        self._writer.check()
         return path
 
     def stop_requested(self) -> StopWord | None:
-        """Return what the supervisor asked for, if anything.
+        """Return what the supervisor asked for, if anything; who asks often shows that the training goes on.
 
         Raises:
             StaleFence: the run was given to another worker.
@@ -137,7 +143,7 @@ class StoreRecorder:
         if write_curves is None:
             return
         self._curves_saved_at = time.monotonic()
-        steps, values = read_curves(self._db, self._claim.run_id)
+        steps, values = insist(lambda: read_curves(self._db, self._claim.run_id))
         if not steps:
             return
         title = f"{config.task} {config.method} {config.phase}, seed {config.seed}"
@@ -165,9 +171,3 @@ def read_curves(db: Database, run_id: str) -> tuple[list[Step], Curves]:
         for name, column in curves.items():
             column.extend(page.values.get(name, [None] * len(page.step)))
     return steps, curves
-
-
-def checksum(path: Path) -> str:
-    """Return the sha256 of a file in hex."""
-    with path.open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()

@@ -7,22 +7,27 @@ from __future__ import annotations
 
 import logging
 import os
-import signal
 import socket
 import time
-from dataclasses import dataclass, field
-from math import inf
+from dataclasses import dataclass
 
 from backend.store.claims import Claim
 from backend.store.database import Database
 from backend.store.errors import StaleFence, StoreUnavailable
-from backend.store.outcomes import RETRY_BACKOFF_S, Cancelled, Failed, HandedBack, Outcome, Paused
+from backend.store.outcomes import RETRY_BACKOFF_S, Failed, Outcome
 from backend.store.queue import HEARTBEAT_S, LEASE_S, HeartbeatReply, claim, finish, read_requests, reap_expired
-from backend.store.workers import register_worker, retire
+from backend.store.workers import Machine, register_worker, retire
 from sldr_core.errors import InvalidConfig
-from worker.executors.local import LocalChild, LocalExecutor
+from worker.attempt import Attempt
+from worker.executors import Executor
 from worker.heart import Heart
+from worker.machine import describe_machine
+from worker.patience import insist
+from worker.presence import Presence
 from worker.words import StopWord
+
+HANG_S = 600.0
+"""No step of a training takes this long; who shows no progress for so long hangs [s]."""
 
 log = logging.getLogger(__name__)
 
@@ -42,35 +47,44 @@ class Timing:
     cancel_grace_s: float = 5.0
     """How long a child may take to obey a cancel; then it is killed [s]."""
     stop_grace_s: float = 25.0
-    """How long a child may take to end its cycle and checkpoint; then it is killed [s]."""
+    """How long a child may take to end its cycle and checkpoint when this worker ends; then it is killed [s]."""
+    pause_grace_s: float = HANG_S
+    """How long a child may take to do that for a pause, which is in no hurry; then it is killed [s]."""
+    hang_s: float = HANG_S
+    """A child whose training shows no progress for this long is killed and tried again [s]."""
     retry_backoff_s: float = RETRY_BACKOFF_S
     """Wait before the first retry [s]."""
-
-
-@dataclass
-class _Attempt:
-    """One child, and what was asked of it."""
-
-    claim: Claim
-    child: LocalChild
-    asked: StopWord | None = None
-    kill_at: float = field(default=inf)
-    """When patience ends, on the monotonic clock [s]."""
 
 
 class Supervisor:
     """Keep `slots` trainings running as long as there is something to train."""
 
-    def __init__(self, db: Database, executor: LocalExecutor, slots: int, timing: Timing | None = None) -> None:
+    def __init__(
+        self,
+        db: Database,
+        executor: Executor,
+        slots: int,
+        timing: Timing | None = None,
+        machine: Machine | None = None,
+    ) -> None:
+        """Prepare to work.
+
+        Args:
+            slots: trainings at the same time.
+            machine: what there is to train with; runs that ask for a GPU are taken only if it has one.
+        """
         if slots < 1:
             raise InvalidConfig({"slots": f"a worker needs at least 1, got {slots}"})
         self._db = db
         self._executor = executor
         self._slots = slots
         self._timing = timing or Timing()
-        self._attempts: dict[str, _Attempt] = {}
+        self._machine = machine or describe_machine([])
+        self._presence = Presence(self._timing.lease_s)
+        self._attempts: dict[str, Attempt] = {}
         self._stops_asked = 0
         self._reap_at = 0.0
+        self._is_cut_off = False
 
     def ask_to_stop(self) -> None:
         """Let every child checkpoint, hand all runs back, then end `run`. Asked again: without checkpoints.
@@ -81,33 +95,50 @@ class Supervisor:
 
     def run(self) -> None:
         """Work until asked to stop. Call it from the main thread."""
-        worker_id = register_worker(self._db, socket.gethostname(), os.getpid(), self._slots)
-        timing = self._timing
-        heart = Heart(self._db, worker_id, self._held, self._lose, timing.heartbeat_s, timing.lease_s)
+        worker_id = insist(self._register)
+        heart = self._make_heart(worker_id)
         heart.start()
         log.info("Worker %s is ready with %d slot(s).", worker_id, self._slots)
         try:
             while self._attempts or not self._stops_asked:
                 heart.check()
                 self._take_turn(worker_id)
-                time.sleep(timing.poll_s)
-            retire(self._db, worker_id)
+                time.sleep(self._timing.poll_s)
+            self._retire(worker_id)
         finally:
             heart.stop()
             for attempt in self._attempts.values():
                 attempt.child.kill()
                 attempt.child.wait()
 
+    def _register(self) -> str:
+        return register_worker(self._db, socket.gethostname(), os.getpid(), self._slots, self._machine)
+
+    def _retire(self, worker_id: str) -> None:
+        try:
+            retire(self._db, worker_id)
+        except StoreUnavailable as err:
+            log.warning("The worker stays on the list until it has been silent for long: %s", err)
+
+    def _make_heart(self, worker_id: str) -> Heart:
+        timing = self._timing
+        return Heart(self._db, worker_id, self._held, self._lose, self._presence, timing.heartbeat_s, timing.lease_s)
+
     def _take_turn(self, worker_id: str) -> None:
+        self._presence.note_turn()
+        self._kill_overdue()
         try:
             self._report_ended()
             self._pass_on_requests()
-            self._kill_overdue()
             self._reap()
             if not self._stops_asked:
                 self._fill_slots(worker_id)
+            self._is_cut_off = False
         except StoreUnavailable as err:
-            log.warning("Trying again: %s", err)
+            self._presence.note_outage()
+            if not self._is_cut_off:
+                log.warning("Trying again and again: %s", err)
+                self._is_cut_off = True
 
     def _held(self) -> list[Claim]:
         return [attempt.claim for attempt in list(self._attempts.values())]
@@ -116,11 +147,11 @@ class Supervisor:
         """Let the main loop kill a child whose run went to somebody else. Called by the heart's thread."""
         attempt = self._attempts.get(claim.run_id)
         if attempt is not None and attempt.claim.fence == claim.fence:
-            attempt.kill_at = 0.0
+            attempt.give_up()
 
     def _fill_slots(self, worker_id: str) -> None:
-        while len(self._attempts) < self._slots:
-            claimed = claim(self._db, worker_id, self._timing.lease_s)
+        while len(self._attempts) < self._slots and self._executor.has_room():
+            claimed = claim(self._db, worker_id, self._timing.lease_s, with_gpu=self._machine.gpu is not None)
             if claimed is None:
                 return
             self._start(claimed)
@@ -132,15 +163,15 @@ class Supervisor:
             log.exception("Run %s could not be started.", claimed.run_id)
             self._finish(claimed, Failed(f"Its process could not be started: {err}.", retry=True))
             return
-        self._attempts[claimed.run_id] = _Attempt(claimed, child)
-        log.info("Run %s, attempt %d: started as process %d.", claimed.run_id, claimed.attempt, child.pid)
+        self._attempts[claimed.run_id] = Attempt(claimed, child)
+        log.info("Run %s, attempt %d: started as %s.", claimed.run_id, claimed.attempt, child.place)
 
     def _report_ended(self) -> None:
         for run_id, attempt in list(self._attempts.items()):
             status = attempt.child.poll()
             if status is None:
                 continue
-            self._finish(attempt.claim, _outcome_of(attempt.asked, status))
+            self._finish(attempt.claim, attempt.outcome())
             attempt.child.wait()
             del self._attempts[run_id]
             log.info("Run %s, attempt %d: ended with status %d.", run_id, attempt.claim.attempt, status)
@@ -150,15 +181,28 @@ class Supervisor:
             finish(self._db, claimed, outcome, self._timing.retry_backoff_s)
         except StaleFence:
             log.debug("Run %s: its child has reported already, or it was taken away.", claimed.run_id)
+        except StoreUnavailable as err:
+            if self._stops_asked < 2:
+                raise
+            log.warning("Run %s: its end could not be told, so its lease will run out: %s", claimed.run_id, err)
 
     def _pass_on_requests(self) -> None:
         for attempt in self._attempts.values():
-            word = self._wanted_of(read_requests(self._db, attempt.claim))
-            if word is not None and attempt.asked not in (word, "cancel"):
-                attempt.child.tell(word)
-                attempt.asked = word
-                grace = self._timing.cancel_grace_s if word == "cancel" else self._timing.stop_grace_s
-                attempt.kill_at = min(attempt.kill_at, time.monotonic() + grace)
+            reply = self._read_requests(attempt.claim)
+            word = self._wanted_of(reply)
+            if word is not None:
+                attempt.ask(word, self._grace_for(word))
+            if reply.idle_s > self._timing.hang_s and self._presence.is_steady:
+                attempt.give_up_hung(reply.idle_s)
+
+    def _read_requests(self, claimed: Claim) -> HeartbeatReply:
+        """Ask what people want of an attempt; a store that cannot answer must not keep a worker from ending."""
+        try:
+            return read_requests(self._db, claimed)
+        except StoreUnavailable:
+            if not self._stops_asked:
+                raise
+            return HeartbeatReply(alive=True, cancel=False, pause=False)
 
     def _wanted_of(self, reply: HeartbeatReply) -> StopWord | None:
         if reply.cancel:
@@ -167,40 +211,17 @@ class Supervisor:
             return "shutdown"
         return "pause" if reply.pause else None
 
+    def _grace_for(self, word: StopWord) -> float:
+        timing = self._timing
+        return {"cancel": timing.cancel_grace_s, "shutdown": timing.stop_grace_s, "pause": timing.pause_grace_s}[word]
+
     def _kill_overdue(self) -> None:
-        at_once = self._stops_asked > 1
         for attempt in self._attempts.values():
-            if at_once or time.monotonic() >= attempt.kill_at:
-                log.warning("Run %s: its process %d is killed.", attempt.claim.run_id, attempt.child.pid)
-                attempt.child.kill()
+            attempt.kill_if_overdue(at_once=self._stops_asked > 1)
 
     def _reap(self) -> None:
-        if time.monotonic() < self._reap_at:
+        if time.monotonic() < self._reap_at or not self._presence.is_steady:
             return
         self._reap_at = time.monotonic() + self._timing.reap_s
         for run_id in reap_expired(self._db, self._timing.retry_backoff_s):
             log.warning("Run %s: its worker gave no sign of life; it was taken from it.", run_id)
-
-
-def _outcome_of(asked: StopWord | None, status: int) -> Outcome:
-    """Say how an attempt ended whose child did not say so itself."""
-    match asked:
-        case "cancel":
-            return Cancelled()
-        case "pause":
-            return Paused()
-        case "shutdown":
-            return HandedBack("Its worker was asked to end.")
-        case None:
-            return Failed(_cause(status), retry=True)
-
-
-def _cause(status: int) -> str:
-    if status >= 0:
-        return f"Its process ended early with exit status {status}; the log says more."
-    try:
-        name = signal.Signals(-status).name
-    except ValueError:
-        name = f"signal {-status}"
-    hint = " (the machine may be out of memory)" if name == "SIGKILL" else ""
-    return f"Its process was killed by {name}{hint}."

@@ -56,4 +56,9 @@ def _summary_fields(row: RunRow) -> dict[str, Any]:
         "started_at": row.started_at,
         "ended_at": row.ended_at,
         "cancel_requested": row.cancel_requested,
+        "pause_requested": row.pause_requested,
+        "is_below_gate": row.is_below_gate,
+        "gate_waived": row.gate_waived,
+        "priority": row.priority,
+        "deleted_at": row.deleted_at,
     }

@@ -14,12 +14,14 @@ from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddle
 from backend.api import viewer_proxy
 from backend.api.dependencies import Service
 from backend.api.errors import add_error_answers
+from backend.api.hosts import LOCAL, HostRule, OwnHost
 from backend.api.origins import SameOrigin
 from backend.api.pages import BUILT_PAGE, add_pages
-from backend.api.routes import choices, health, launches, run_files, runs, viewer_sessions, workers
+from backend.api.routes import choices, health, launches, queue, run_actions, run_files, runs, viewer_sessions, workers
 from backend.api.tokens import ViewerTokens, load_secret
 from backend.store.database import open_database
 from backend.store.settings import Settings
+from backend.store.storage import FileStorage
 
 GZIP_LEVEL = 5
 """Nearly as small as the smallest, several times as fast."""
@@ -28,12 +30,13 @@ SMALLEST_GZIP = 1024
 """Shorter answers are sent as they are [bytes]."""
 
 
-def create_app(settings: Settings, page: Path = BUILT_PAGE) -> FastAPI:
+def create_app(settings: Settings, page: Path = BUILT_PAGE, hosts: HostRule = LOCAL) -> FastAPI:
     """Return the API over one data directory and store; both are opened when it starts to serve.
 
     Args:
         settings: where files and tables lie.
         page: directory of the built page.
+        hosts: the names that the server answers to.
     """
     app = FastAPI(
         title="SLDR",
@@ -45,7 +48,18 @@ def create_app(settings: Settings, page: Path = BUILT_PAGE) -> FastAPI:
         generate_unique_id_function=_operation_id,
         lifespan=_lifespan(settings),
     )
-    for routes in (health, choices, launches, runs, run_files, workers, viewer_sessions, viewer_proxy):
+    for routes in (
+        health,
+        choices,
+        launches,
+        run_actions,
+        runs,
+        run_files,
+        queue,
+        workers,
+        viewer_sessions,
+        viewer_proxy,
+    ):
         app.include_router(routes.router)
     add_pages(app, page)
     add_error_answers(app)
@@ -56,6 +70,7 @@ def create_app(settings: Settings, page: Path = BUILT_PAGE) -> FastAPI:
         exclude_content_types=(*DEFAULT_EXCLUDED_CONTENT_TYPES, "application/octet-stream"),
     )
     app.add_middleware(SameOrigin)
+    app.add_middleware(OwnHost, rule=hosts)
     return app
 
 
@@ -65,7 +80,7 @@ def _lifespan(settings: Settings):  # noqa: ANN202 - the decorator's type is lon
         database = open_database(settings)
         with viewer_proxy.viser_client() as viser:
             tokens = ViewerTokens(load_secret(settings.secret_path))
-            app.state.service = Service(settings=settings, database=database, tokens=tokens, viser=viser)
+            app.state.service = Service(settings, database, FileStorage(settings), tokens, viser)
             yield
         database.close()
 

@@ -12,6 +12,7 @@ from starlette.requests import HTTPConnection
 from backend.api.tokens import ViewerTokens
 from backend.store.database import Database
 from backend.store.settings import Settings
+from backend.store.storage import FileStorage
 
 
 @dataclass(frozen=True)
@@ -20,6 +21,7 @@ class Service:
 
     settings: Settings
     database: Database
+    storage: FileStorage
     tokens: ViewerTokens
     viser: httpx.Client
     """Fetches pages from the 3D servers on this machine."""
@@ -35,6 +37,11 @@ def get_database(connection: HTTPConnection) -> Database:
     return get_service(connection).database
 
 
+def get_storage(connection: HTTPConnection) -> FileStorage:
+    """Return where stored files lie."""
+    return get_service(connection).storage
+
+
 def get_settings(connection: HTTPConnection) -> Settings:
     """Return the settings."""
     return get_service(connection).settings
@@ -47,5 +54,6 @@ def get_tokens(connection: HTTPConnection) -> ViewerTokens:
 
 ServiceParts = Annotated[Service, Depends(get_service)]
 Store = Annotated[Database, Depends(get_database)]
+Storage = Annotated[FileStorage, Depends(get_storage)]
 ServiceSettings = Annotated[Settings, Depends(get_settings)]
 Tokens = Annotated[ViewerTokens, Depends(get_tokens)]

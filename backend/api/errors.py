@@ -13,7 +13,7 @@ from fastapi.responses import Response
 from starlette.exceptions import HTTPException
 
 from backend.api.schemas import Problem, Problems
-from backend.store.errors import NotFound, StoreUnavailable, WrongState
+from backend.store.errors import FileGone, NotFound, Refused, StoreUnavailable, WrongState
 from sldr_core.errors import InvalidConfig, SldrError, UnknownName
 
 log = logging.getLogger("sldr.api")
@@ -92,7 +92,7 @@ def _answer_sldr_error(request: Request, error: Exception) -> Response:
         return problem_answer(422, [problem(text, name) for name, text in error.problems.items()])
     if isinstance(error, UnknownName):
         return problem_answer(422, [problem(str(error), error.kind)])
-    status = 404 if isinstance(error, NotFound) else 409 if isinstance(error, WrongState) else 422
+    status = 404 if isinstance(error, NotFound | FileGone) else 409 if isinstance(error, WrongState | Refused) else 422
     return problem_answer(status, [problem(str(error))])
 
 

@@ -135,11 +135,16 @@ class RunSummary(Strict):
     created_at: datetime
     started_at: datetime | None
     ended_at: datetime | None
-    cancel_requested: bool
+    cancel_requested: bool = Field(description="It will end; its worker has not ended it yet.")
+    pause_requested: bool = Field(description="It will pause; its worker has not paused it yet.")
+    is_below_gate: bool = Field(description="Only its gate holds it back, so that it can be released.")
+    gate_waived: bool = Field(description="A person has let it start below its gate.")
+    priority: int = Field(description="Runs of a higher one start first.")
+    deleted_at: datetime | None = Field(description="When a person hid it; it can be restored.")
 
 
 class RunPage(Strict):
-    """One page of runs, newest first."""
+    """One page of runs, in the order asked for."""
 
     runs: list[RunSummary]
     next_cursor: str | None
@@ -214,24 +219,6 @@ class RunFiles(Strict):
     """The stored files of a run."""
 
     files: list[RunFile]
-
-
-class Worker(Strict):
-    """One worker process and what it does."""
-
-    id: str
-    host: str
-    pid: int
-    slots: int
-    busy: int
-    last_heartbeat_at: datetime
-    alive: bool
-
-
-class Workers(Strict):
-    """The workers known to the store."""
-
-    workers: list[Worker]
 
 
 class ViewerRequest(Strict):

@@ -7,28 +7,33 @@ from collections.abc import Generator
 from contextlib import contextmanager, nullcontext
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
 
-from sqlalchemy import Connection, Engine, create_engine, event, func, inspect, make_url, select, text
-from sqlalchemy.exc import OperationalError
+from sqlalchemy import Connection, Engine, func, inspect, select, text
+from sqlalchemy.exc import DataError, DBAPIError, OperationalError
+from sqlalchemy.exc import TimeoutError as NoConnectionFree
 
-from backend.store.errors import StoreUnavailable
+from backend.store.engines import for_reading, for_writing, open_engine, parse_address
+from backend.store.errors import StoreTooNew, StoreUnavailable, Unstorable
 from backend.store.settings import Settings
 from backend.store.tables import SCHEMA_REVISION
 
-BUSY_TIMEOUT_S = 30.0
-"""How long a writer waits for the others on SQLite [s]."""
-MIGRATION_LOCK = 0x534C4452
-"""Key of the advisory lock that lets one process at a time migrate a PostgreSQL store."""
-WRITE_OPTION = "sldr_write"
+MIGRATION_TURN = 0x534C4452
+"""Whose turn it is to migrate a PostgreSQL store: the key of an advisory lock."""
+LAUNCH_TURN = MIGRATION_TURN + 1
+"""Whose turn it is to launch; see `take_turn`."""
 
 
 class Database:
     """Hand out transactions of the store. Share one between threads."""
 
     def __init__(self, engine: Engine) -> None:
-        self._reader = engine
-        self._writer = engine.execution_options(**{WRITE_OPTION: True})
+        self._reader = for_reading(engine)
+        self._writer = for_writing(engine)
+
+    @property
+    def engine_name(self) -> str:
+        """Which database it is: `sqlite` or `postgresql`."""
+        return self._writer.dialect.name
 
     @contextmanager
     def read(self) -> Generator[Connection]:
@@ -38,27 +43,32 @@ class Database:
 
     @contextmanager
     def write(self) -> Generator[Connection]:
-        """Open a transaction that writes; on SQLite it waits for its turn before it reads anything."""
+        """Open a transaction that writes.
+
+        On SQLite it waits for its turn before it reads anything. On PostgreSQL writers go on beside each other: lock
+        the rows that a decision hangs on (`with_for_update`), or take turns (`take_turn`).
+        """
         with _transaction(self._writer) as conn:
             yield conn
 
     def close(self) -> None:
         """Close every connection."""
-        self._reader.dispose()
+        self._writer.dispose()
 
 
 def open_database(settings: Settings) -> Database:
-    """Open the store and bring its tables up to date; safe when several processes start at once."""
+    """Open the store and bring its tables up to date; safe when several processes start at once.
+
+    Raises:
+        BadAddress: the address of the store cannot work.
+        StoreTooNew: a later version of this program has used the store.
+        StoreUnavailable: the store cannot be reached.
+    """
     settings.home.mkdir(parents=True, exist_ok=True)
-    url = make_url(settings.database_url)
-    is_sqlite = url.get_backend_name() == "sqlite"
-    if is_sqlite and url.database:
-        Path(url.database).parent.mkdir(parents=True, exist_ok=True)
-    engine = create_engine(url, connect_args={"timeout": BUSY_TIMEOUT_S} if is_sqlite else {})
-    if is_sqlite:
-        event.listen(engine, "connect", _set_up_sqlite)
-        event.listen(engine, "begin", _begin_sqlite)
+    url = parse_address(settings.database_url)
+    engine = open_engine(url)
     database = Database(engine)
+    is_sqlite = database.engine_name == "sqlite"
     lock = _file_lock(Path(f"{url.database}.lock")) if is_sqlite else nullcontext()
     with lock:
         if is_sqlite:
@@ -74,25 +84,34 @@ def current_time(conn: Connection) -> datetime:
     return conn.execute(select(func.clock_timestamp())).scalar_one().astimezone(UTC)
 
 
+def take_turn(conn: Connection, turn: int) -> None:
+    """Wait until no other transaction has this turn, and keep it until this one ends.
+
+    On SQLite the whole of a writing transaction is a turn already.
+    """
+    if conn.dialect.name != "sqlite":
+        conn.execute(select(func.pg_advisory_xact_lock(turn)))
+
+
 @contextmanager
 def _transaction(engine: Engine) -> Generator[Connection]:
     try:
         with engine.begin() as conn:
             yield conn
-    except OperationalError as err:
-        raise StoreUnavailable(f"The store cannot be used just now: {err.orig}.") from err
+    except NoConnectionFree as err:
+        raise StoreUnavailable("The store cannot be used just now: all its connections are taken.") from err
+    except DataError as err:
+        raise Unstorable(f"The store cannot hold or compare a value: {_first_line(err)}.") from err
+    except DBAPIError as err:
+        if isinstance(err, OperationalError) or err.connection_invalidated:
+            raise StoreUnavailable(f"The store cannot be used just now: {_first_line(err)}.") from err
+        raise
 
 
-def _set_up_sqlite(connection: Any, _record: object) -> None:
-    # The driver's own transaction control starts writers too late; `_begin_sqlite` does it instead.
-    connection.isolation_level = None
-    for pragma in ("foreign_keys=ON", "synchronous=NORMAL"):
-        connection.execute(f"PRAGMA {pragma}")
-
-
-def _begin_sqlite(conn: Connection) -> None:
-    writes = conn.get_execution_options().get(WRITE_OPTION, False)
-    conn.exec_driver_sql("BEGIN IMMEDIATE" if writes else "BEGIN")
+def _first_line(err: DBAPIError) -> str:
+    """Return what the driver says; PostgreSQL adds lines of advice and of context."""
+    lines = str(err.orig).strip().splitlines()
+    return lines[0].rstrip(".") if lines else type(err.orig).__name__
 
 
 def _use_write_ahead_log(engine: Engine) -> None:
@@ -117,12 +136,20 @@ def _migrate(database: Database) -> None:
     with database.read() as conn:
         if _revision(conn) == SCHEMA_REVISION:
             return
-    from backend.store.migrations import upgrade  # Alembic takes a third of a second to import: only when needed.
+    # Alembic takes a third of a second to import: only when needed.
+    from alembic.util import CommandError
+
+    from backend.store.migrations import upgrade
 
     with database.write() as conn:
-        if conn.dialect.name == "postgresql":
-            conn.execute(select(func.pg_advisory_xact_lock(MIGRATION_LOCK)))
-        upgrade(conn)
+        take_turn(conn, MIGRATION_TURN)
+        try:
+            upgrade(conn)
+        except CommandError as err:
+            raise StoreTooNew(
+                f"The store's tables are of revision {_revision(conn)}, which this version does not know; "
+                "start the newer version that has used it, or restore a backup made before."
+            ) from err
 
 
 def _revision(conn: Connection) -> str | None:

@@ -2,11 +2,16 @@
 
 SldrError
 ├── NotFound             there is no such run, worker, file or session
+├── FileGone             a file that the store knows is not where it should be
 ├── WrongState           a run cannot do this in the state it is in
-└── Refused              something else than its state keeps a run from doing this
+├── Refused              something else than its state keeps a run from doing this
+├── BadAddress           the address of the store or of the files cannot work
+├── StoreTooNew          a later version of this program has used the store
+└── Unstorable           a value that no column can hold, such as text with a zero byte
 Exception
 ├── StaleFence           an attempt that was replaced tried to write
 └── StoreUnavailable     the database cannot be reached, is locked or full; the same call may work later
+    └── FilesUnavailable the same of the place that machines share files through
 """
 
 from __future__ import annotations
@@ -25,6 +30,10 @@ class NotFound(SldrError):
         self.name = name
 
 
+class FileGone(SldrError):
+    """Report a stored file whose bytes are not where its row says."""
+
+
 class WrongState(SldrError):
     """Report a change that the run's present state does not allow."""
 
@@ -34,6 +43,18 @@ class WrongState(SldrError):
         self.run_id = run_id
         self.state = state
         self.event = event
+
+
+class BadAddress(SldrError):
+    """Report an address of the store or of the files that can never work as it is written."""
+
+
+class StoreTooNew(SldrError):
+    """Report tables that a later version of this program has made."""
+
+
+class Unstorable(SldrError):
+    """Report a value that the database can neither hold nor compare with what it holds."""
 
 
 class Refused(SldrError):
@@ -51,3 +72,7 @@ class StaleFence(Exception):
 
 class StoreUnavailable(Exception):
     """Report that the database could not be read or written just now."""
+
+
+class FilesUnavailable(StoreUnavailable):
+    """Report that the place that machines share files through could not be read or written just now."""

@@ -1,4 +1,4 @@
-"""The stored files of runs: rows that point below the data directory, with size and checksum."""
+"""The stored files of runs: rows that say where the bytes lie, with size and checksum."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class FileRow:
     kind: str
     """What it is for, such as `policy` or `checkpoint`."""
     path: str
-    """Where it lies, below the data directory."""
+    """Where it lies, below the data directory or the place that machines share."""
     size: int
     """Length [bytes]."""
     sha256: str
@@ -31,29 +31,33 @@ class FileRow:
     created_at: datetime
 
 
-def register_file(
-    db: Database, claim: Claim, name: str, kind: str, path_relative_to_home: str, size: int, sha256: str
-) -> None:
+def register_file(db: Database, claim: Claim, name: str, kind: str, path: str, size: int, sha256: str) -> str | None:
     """Record a file that an attempt has written; one of the same name is replaced.
+
+    Returns:
+        The path that the name stood for before, if it was another.
 
     Raises:
         StaleFence: the attempt is over.
     """
     with db.write() as conn:
         hold_fence(conn, claim)
-        conn.execute(delete(run_files).where(run_files.c.run_id == claim.run_id, run_files.c.name == name))
+        this = (run_files.c.run_id == claim.run_id, run_files.c.name == name)
+        before = conn.execute(select(run_files.c.path).where(*this)).scalar_one_or_none()
+        conn.execute(delete(run_files).where(*this))
         conn.execute(
             insert(run_files).values(
                 run_id=claim.run_id,
                 name=name,
                 kind=kind,
-                path=path_relative_to_home,
+                path=path,
                 size=size,
                 sha256=sha256,
                 attempt=claim.attempt,
                 created_at=current_time(conn),
             )
         )
+    return None if before == path else before
 
 
 def find_file(db: Database, run_id: str, name: str) -> FileRow:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from datetime import datetime
+from datetime import UTC, datetime
 
 from sqlalchemy import select
 
@@ -19,6 +19,9 @@ from backend.store.runs import RunRow, run_rows
 from backend.store.states import ENDED, RunState
 from backend.store.tables import runs
 from backend.store.workers import WorkerRow, select_workers
+
+NEVER = datetime.max.replace(tzinfo=UTC)
+"""Stands for the start of a run of which nobody can tell."""
 
 
 @dataclass(frozen=True)
@@ -59,11 +62,14 @@ def _seconds_left(run: RunRow, durations: Durations) -> float | None:
 
 
 def _place(run: RunRow, plan: Mapping[str, Planned]) -> tuple[int, datetime]:
-    """Return where a run stands: running ones first, then those that will start, then those that nobody can tell."""
+    """Return where a run stands: running ones first, then those that will start, then those that nobody can tell.
+
+    Where that leaves runs side by side, they keep the order in which workers take them.
+    """
     planned = plan.get(run.id)
     kinds = (RunState.RUNNING, None, RunState.QUEUED, RunState.BLOCKED, RunState.PAUSED)
     kind = None if planned and run.state is not RunState.RUNNING else run.state
-    return kinds.index(kind), planned.start.at if planned else run.created_at
+    return kinds.index(kind), planned.start.at if planned else NEVER
 
 
 def _entry(

@@ -10,7 +10,7 @@ from typing import Any
 
 from sqlalchemy import Connection, insert, select
 
-from backend.store.database import Database, current_time
+from backend.store.database import LAUNCH_TURN, Database, current_time, take_turn
 from backend.store.dependents import why_blocked
 from backend.store.order import last_position
 from backend.store.states import Event, RunState, append_event
@@ -91,6 +91,8 @@ def launch(db: Database, order: LaunchOrder) -> list[str]:
     """
     ids: dict[str, str] = {}
     with db.write() as conn:
+        # Two launches at once must not both find that a locomotion run has to be made.
+        take_turn(conn, LAUNCH_TURN)
         at = current_time(conn)
         for planned in _plan(conn, order):
             needed = [ids[needed_hash] for needed_hash in planned.needs]

@@ -52,7 +52,10 @@ class MetricColumns:
 
 
 def append_metrics(db: Database, claim: Claim, points: Sequence[MetricPoint]) -> None:
-    """Store points in one transaction.
+    """Store points in one transaction, and note that the attempt goes on; without points, only that.
+
+    A number that is stored already under its attempt, step and name is left alone. So a batch can be sent again when
+    nobody knows whether it arrived.
 
     Raises:
         StaleFence: the attempt is over; nothing was stored.
@@ -61,8 +64,9 @@ def append_metrics(db: Database, claim: Claim, points: Sequence[MetricPoint]) ->
         _check_finite(point)
     with db.write() as conn:
         hold_fence(conn, claim)
+        there = _stored_names(conn, claim, points)
         for point in points:
-            _insert_point(conn, claim, point)
+            _insert_point(conn, claim, point, there)
 
 
 def read_metrics(
@@ -102,8 +106,40 @@ def _check_finite(point: MetricPoint) -> None:
             raise ValueError(f"metric {name} is {value} at cycle {point.step.cycle}; only finite numbers are stored")
 
 
-def _insert_point(conn: Connection, claim: Claim, point: MetricPoint) -> None:
-    step = point.step
+def _stored_names(conn: Connection, claim: Claim, points: Sequence[MetricPoint]) -> dict[int, tuple[int, set[str]]]:
+    """Return, for each step that the attempt has logged already, its id and the names under which it did."""
+    if not points:
+        return {}
+    query = (
+        select(metric_steps.c.step, metric_steps.c.id, metric_values.c.name)
+        .outerjoin(metric_values, metric_values.c.step_id == metric_steps.c.id)
+        .where(
+            metric_steps.c.run_id == claim.run_id,
+            metric_steps.c.attempt == claim.attempt,
+            metric_steps.c.step >= min(point.step.cycle for point in points),
+        )
+    )
+    stored: dict[int, tuple[int, set[str]]] = {}
+    for row in conn.execute(query):
+        stored.setdefault(row.step, (row.id, set()))[1].add(row.name)
+    return stored
+
+
+def _insert_point(conn: Connection, claim: Claim, point: MetricPoint, stored: dict[int, tuple[int, set[str]]]) -> None:
+    if point.step.cycle not in stored:
+        stored[point.step.cycle] = (_insert_step(conn, claim, point.step), set())
+    step_id, names = stored[point.step.cycle]
+    values = [
+        {"step_id": step_id, "name": name, "value": float(value)}
+        for name, value in point.values.items()
+        if name not in names
+    ]
+    if values:
+        conn.execute(insert(metric_values), values)
+        names.update(point.values)
+
+
+def _insert_step(conn: Connection, claim: Claim, step: Step) -> int:
     row = insert(metric_steps).values(
         run_id=claim.run_id,
         attempt=claim.attempt,
@@ -114,10 +150,7 @@ def _insert_point(conn: Connection, claim: Claim, point: MetricPoint) -> None:
         updates=step.updates,
         wall_seconds=step.wall_seconds,
     )
-    step_id = conn.execute(row.returning(metric_steps.c.id)).scalar_one()
-    values = [{"step_id": step_id, "name": name, "value": float(value)} for name, value in point.values.items()]
-    if values:
-        conn.execute(insert(metric_values), values)
+    return conn.execute(row.returning(metric_steps.c.id)).scalar_one()
 
 
 def _not_superseded(conn: Connection, run_id: str) -> list[ColumnElement[bool]]:

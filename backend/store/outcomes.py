@@ -15,7 +15,7 @@ from backend.store.tables import AnyRow, attempts, run_files
 MAX_ATTEMPTS = 3
 """Attempts that may fail in a row before the run fails. A new checkpoint begins the row afresh."""
 MAX_DEATHS = 10
-"""Attempts that may get lost or be killed in a row before the run fails, which says little about the run itself."""
+"""Attempts that may be killed or lose their machine in a row; that says little about the run itself."""
 RETRY_BACKOFF_S = 2.0
 """Wait before the first retry, doubled for each further one in the row [s]."""
 LONGEST_BACKOFF_S = 60.0
@@ -43,11 +43,11 @@ class Failed:
 
 
 @dataclass(frozen=True)
-class Died:
-    """The attempt's process was killed from outside, or its machine is gone."""
+class Lost:
+    """The attempt's process was killed from outside, or is out of reach for good: its machine is gone."""
 
     reason: str
-    """What happened, in one sentence."""
+    """Why, in one sentence."""
 
 
 @dataclass(frozen=True)
@@ -70,7 +70,7 @@ class HandedBack:
     """How long no worker should take it [s]."""
 
 
-Outcome = Succeeded | Failed | Died | Cancelled | Paused | HandedBack
+Outcome = Succeeded | Failed | Lost | Cancelled | Paused | HandedBack
 """How an attempt ended."""
 
 
@@ -90,8 +90,8 @@ def end_attempt(conn: Connection, row: AnyRow, outcome: Outcome, at: datetime, b
             _end(conn, row, Event.FAILED, at, reason)
         case Failed(reason):
             _retry(conn, row, Event.RETRIED, reason, at, backoff_s)
-        case Died(reason):
-            _retry(conn, row, Event.RETRIED, reason, at, backoff_s, is_death=True)
+        case Lost(reason):
+            _retry(conn, row, Event.LOST, reason, at, backoff_s)
         case Paused() if row.pause_requested:
             _leave(conn, row, Event.PAUSED, at, None, {})
         case Paused():
@@ -101,15 +101,13 @@ def end_attempt(conn: Connection, row: AnyRow, outcome: Outcome, at: datetime, b
 
 
 def lose_attempt(conn: Connection, row: AnyRow, at: datetime, backoff_s: float) -> None:
-    """Take a locked, running run from a worker that gave no sign of life."""
-    _retry(conn, row, Event.LOST, f"Its worker {row.worker_id} gave no sign of life.", at, backoff_s, is_death=True)
+    """Take a locked, running run from its worker, which gave no sign of life."""
+    end_attempt(conn, row, Lost(f"Its worker {row.worker_id} gave no sign of life."), at, backoff_s)
 
 
-def _retry(
-    conn: Connection, row: AnyRow, event: Event, reason: str, at: datetime, backoff_s: float, is_death: bool = False
-) -> None:
+def _retry(conn: Connection, row: AnyRow, event: Event, reason: str, at: datetime, backoff_s: float) -> None:
     failures, deaths = (0, 0) if _has_come_further(conn, row) else (row.failures, row.deaths)
-    failures, deaths = (failures, deaths + 1) if is_death else (failures + 1, deaths)
+    failures, deaths = (failures, deaths + 1) if event is Event.LOST else (failures + 1, deaths)
     counts = {"failures": failures, "deaths": deaths}
     if failures >= MAX_ATTEMPTS or deaths >= MAX_DEATHS:
         _end(conn, row, Event.FAILED, at, f"{reason} It was tried {failures + deaths} times.", counts)

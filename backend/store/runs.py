@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import datetime
-from typing import Any, Literal
+from typing import Any
 
-from sqlalchemy import ColumnElement, Connection, String, and_, cast, func, or_, select
+from sqlalchemy import ColumnElement, Connection, String, cast, func, or_, select
 
 from backend.store.database import Database
 from backend.store.errors import NotFound
 from backend.store.progress import Progress, select_progress
+from backend.store.run_order import SortKey, comes_after, sorted_by
 from backend.store.states import Event, RunState
-from backend.store.tables import AnyRow, run_events, run_needs, run_progress
+from backend.store.tables import AnyRow, run_events, run_needs
 from backend.store.tables import runs as run_table
 from sldr_core.errors import InvalidConfig
 
@@ -82,10 +83,6 @@ class RunFilter:
     """Whether to return the runs that a person hid, instead of all others."""
 
 
-SortKey = Literal["launched", "task", "state", "success"]
-"""What a list of runs can be sorted by; `success` is that of the newest test."""
-
-
 @dataclass(frozen=True)
 class RunRows:
     """Hold one page of runs."""
@@ -144,15 +141,10 @@ def list_runs(
         InvalidConfig: the cursor did not come from an earlier page.
     """
     conditions = _conditions(wanted)
-    key, number = _SORT_KEYS[sort], run_table.c.number
-    listed = select(run_table).outerjoin(run_progress, run_progress.c.run_id == run_table.c.id)
-    query = listed.where(*conditions).order_by(key.desc() if descending else key.asc(), number.desc()).limit(limit + 1)
+    query = select(run_table).where(*conditions).order_by(*sorted_by(sort, descending)).limit(limit + 1)
+    if cursor is not None:
+        query = query.where(comes_after(sort, descending, _number(cursor)))
     with db.read() as conn:
-        if cursor is not None:
-            last = _number(cursor)
-            reached = conn.execute(listed.with_only_columns(key).where(number == last)).scalar_one_or_none()
-            later = key < reached if descending else key > reached
-            query = query.where(or_(later, and_(key == reached, number < last)))
         found = conn.execute(query).all()
         total = conn.execute(select(func.count()).select_from(run_table).where(*conditions)).scalar_one()
         rows = run_rows(conn, found[:limit])
@@ -249,11 +241,3 @@ def _run_row(row: AnyRow, needs: Sequence[AnyRow], progress: Progress | None) ->
         config=row.config,
         config_hash=row.config_hash,
     )
-
-
-_SORT_KEYS: Mapping[SortKey, ColumnElement[Any]] = {
-    "launched": run_table.c.number,
-    "task": run_table.c.task,
-    "state": run_table.c.state,
-    "success": func.coalesce(run_progress.c.success_rate, -1.0),
-}

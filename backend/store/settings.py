@@ -8,6 +8,7 @@ from pathlib import Path
 
 HOME_VARIABLE = "SLDR_HOME"
 DATABASE_VARIABLE = "SLDR_DATABASE_URL"
+FILES_VARIABLE = "SLDR_FILES_URL"
 DEFAULT_HOME = "~/.sldr"
 
 
@@ -16,9 +17,11 @@ class Settings:
     """Say where files and tables lie."""
 
     home: Path
-    """The one directory below which every file lies."""
+    """The one directory below which this machine writes."""
     database_url: str
     """SQLAlchemy address of the store."""
+    files_url: str | None = None
+    """The place that several machines share files through, as fsspec names it; None if `home` is all there is."""
 
     @property
     def runs_directory(self) -> Path:
@@ -36,6 +39,11 @@ class Settings:
         return self.home / "logs"
 
     @property
+    def fetched_directory(self) -> Path:
+        """Copies of files that other machines have written; it can be emptied at any time."""
+        return self.home / "fetched"
+
+    @property
     def secret_path(self) -> Path:
         """The key that signs viewer tokens."""
         return self.home / "secret"
@@ -46,13 +54,18 @@ class Settings:
 
     def as_environment(self) -> dict[str, str]:
         """Return the environment variables that give a child process the same settings."""
-        return {HOME_VARIABLE: str(self.home), DATABASE_VARIABLE: self.database_url}
+        shared = {} if self.files_url is None else {FILES_VARIABLE: self.files_url}
+        return {HOME_VARIABLE: str(self.home), DATABASE_VARIABLE: self.database_url, **shared}
 
 
 def load_settings() -> Settings:
     """Read the settings from the environment."""
     home = Path(os.environ.get(HOME_VARIABLE) or DEFAULT_HOME).expanduser().absolute()
-    return Settings(home=home, database_url=os.environ.get(DATABASE_VARIABLE) or sqlite_url(home))
+    return Settings(
+        home=home,
+        database_url=os.environ.get(DATABASE_VARIABLE) or sqlite_url(home),
+        files_url=os.environ.get(FILES_VARIABLE) or None,
+    )
 
 
 def sqlite_url(home: Path) -> str:

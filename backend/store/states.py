@@ -52,7 +52,7 @@ class Event(StrEnum):
     CLAIMED = "claimed"
     """A worker took it."""
     LOST = "lost"
-    """Its worker gave no sign of life."""
+    """Its process was killed from outside, or its worker gave no sign of life."""
     RETRIED = "retried"
     """An attempt failed in a way that may not repeat."""
     HANDED_BACK = "handed_back"

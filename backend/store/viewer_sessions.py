@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import uuid
+from collections.abc import Callable
 from dataclasses import dataclass
 from datetime import datetime, timedelta
 from typing import Any, Literal
@@ -87,11 +88,32 @@ def mark_ended(db: Database, session_id: str, failed: bool = False, message: str
     return _change(db, session_id, OPEN, changes)
 
 
-def end_sessions_of_other_hosts(db: Database, host_id: str, message: str) -> int:
-    """End what hosts that are no more have left open; return how many that were."""
+def end_orphaned_sessions(
+    db: Database, host_id: str, machine: str, is_running: Callable[[int], bool], message: str
+) -> int:
+    """End what viewer hosts that are no more have left open; return how many that were.
+
+    A host is no more if it gave no sign of life lately, or if its process on this machine is gone.
+
+    Args:
+        host_id: the viewer host that asks; what is its own stays open.
+        machine: name of this machine.
+        is_running: tells whether a process of this machine is another living viewer host, by its id.
+        message: why they ended, in one sentence.
+    """
     with db.write() as conn:
         at = current_time(conn)
-        orphaned = (viewer_sessions.c.state.in_(OPEN), viewer_sessions.c.host_id != host_id)
+        silent_before = at - timedelta(seconds=HOST_ALIVE_S)
+        living = [
+            host.id
+            for host in conn.execute(select(viewer_hosts).where(viewer_hosts.c.beat_at > silent_before)).all()
+            if host.id == host_id or host.name != machine or is_running(host.pid)
+        ]
+        orphaned = (
+            viewer_sessions.c.state.in_(OPEN),
+            viewer_sessions.c.host_id.is_not(None),
+            viewer_sessions.c.host_id.not_in(living),
+        )
         changes = {"state": "ended", "message": message, "ended_at": at}
         return conn.execute(update(viewer_sessions).where(*orphaned).values(changes)).rowcount
 
@@ -123,13 +145,18 @@ def list_open(db: Database) -> list[Session]:
         return [Session(**row) for row in conn.execute(query).mappings()]
 
 
-def beat_host(db: Database, host_id: str, pid: int) -> None:
-    """Show that a viewer host is alive; the first call makes it known."""
+def beat_host(db: Database, host_id: str, pid: int, machine: str | None = None) -> None:
+    """Show that a viewer host is alive; the first call makes it known.
+
+    Args:
+        pid: its process.
+        machine: name of the machine on which that runs, if known.
+    """
     with db.write() as conn:
-        at = current_time(conn)
-        change = update(viewer_hosts).where(viewer_hosts.c.id == host_id).values(beat_at=at, pid=pid)
+        values = {"beat_at": current_time(conn), "pid": pid, "name": machine}
+        change = update(viewer_hosts).where(viewer_hosts.c.id == host_id).values(values)
         if conn.execute(change).rowcount == 0:
-            conn.execute(insert(viewer_hosts).values(id=host_id, pid=pid, beat_at=at))
+            conn.execute(insert(viewer_hosts).values(id=host_id, **values))
 
 
 def is_host_alive(db: Database) -> bool:

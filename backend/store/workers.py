@@ -29,6 +29,8 @@ class Machine:
     """Name of its GPU, if it has one."""
     memory_total: int = 0
     """Its memory [bytes]; 0 if nobody knows."""
+    executor: str = "local"
+    """What runs its attempts: `local` processes, or `ray`."""
 
 
 @dataclass(frozen=True)
@@ -61,14 +63,12 @@ class WorkerRow:
     alive: bool
 
 
-def register_worker(
-    db: Database, host: str, pid: int, slots: int, machine: Machine | None = None, executor: str = "local"
-) -> str:
+def register_worker(db: Database, host: str, pid: int, slots: int, machine: Machine | None = None) -> str:
     """Make a worker known and return its id."""
     worker_id = uuid.uuid4().hex[:12]
     with db.write() as conn:
         at = current_time(conn)
-        values = {"id": worker_id, "host": host, "pid": pid, "slots": slots, "executor": executor}
+        values = {"id": worker_id, "host": host, "pid": pid, "slots": slots}
         conn.execute(insert(workers).values(**values, **asdict(machine or Machine()), started_at=at, beat_at=at))
     return worker_id
 

@@ -66,13 +66,16 @@ class Parts:
         return {"agent": self.agent.state_dict(), **inverse, **streams}
 
 
-def build_training(config: TrainConfig, directory: Path, locomotion_models: Sequence[Path]) -> Parts:
+def build_training(
+    config: TrainConfig, directory: Path, locomotion_models: Sequence[Path], gate_waived: bool = False
+) -> Parts:
     """Put a training together.
 
     Args:
         config: what to train.
         directory: the run's directory, for the replay file.
         locomotion_models: one file for each task of `locomotion_tasks(config)`, in any order.
+        gate_waived: whether models below the gate are taken as well.
 
     Raises:
         LocomotionMissing: the method needs a locomotion model that is not given, or is below its gate.
@@ -80,7 +83,7 @@ def build_training(config: TrainConfig, directory: Path, locomotion_models: Sequ
         DiskTooFull: the run's files would not fit.
         InvalidConfig: the device does not exist.
     """
-    models = _load_models(config, locomotion_models)
+    models = _load_models(config, locomotion_models, gate=0.0 if gate_waived else config.sldr.gate)
     compute = resolve_compute(config.compute)
     task = config.task_spec
     sampling_seed, exploration_seed, weight_seed, stream_seed = np.random.SeedSequence(config.seed).spawn(4)
@@ -132,7 +135,7 @@ def _make_buffer(
     return ReplayBuffer(directory / REPLAY_FILE, shapes, capacity, slack)
 
 
-def _load_models(config: TrainConfig, paths: Sequence[Path]) -> dict[str, LocomotionModel]:
+def _load_models(config: TrainConfig, paths: Sequence[Path], gate: float) -> dict[str, LocomotionModel]:
     """Read the locomotion models that the method needs, by the task each was trained in."""
     models: dict[str, LocomotionModel] = {}
     needed = locomotion_tasks(config)
@@ -148,10 +151,10 @@ def _load_models(config: TrainConfig, paths: Sequence[Path]) -> dict[str, Locomo
             )
         if task in models:
             raise BadFile(f"{path} is a second locomotion model of {task}; give one of each task.")
-        if model.measured.success_rate < config.sldr.gate:
+        if model.measured.success_rate < gate:
             raise LocomotionMissing(
                 f"{path} reached {model.measured.success_rate:.1%} test success, below the gate of "
-                f"{config.sldr.gate:.1%}; train its object longer, or lower sldr.gate."
+                f"{gate:.1%}; train its object longer, or lower sldr.gate."
             )
         models[task] = model
     missing = [task for task in needed if task not in models]

@@ -46,13 +46,16 @@ class _Cancelled(Exception):
     """Leave the loop at once; what this cycle did is not kept."""
 
 
-def train(config: TrainConfig, recorder: Recorder, locomotion_models: Sequence[Path] = ()) -> TrainResult:
+def train(
+    config: TrainConfig, recorder: Recorder, locomotion_models: Sequence[Path] = (), gate_waived: bool = False
+) -> TrainResult:
     """Train to the end, or until the recorder asks to stop; go on from the directory's checkpoint if there is one.
 
     Args:
         config: what to train.
         recorder: where numbers and files go, and who may ask to stop.
         locomotion_models: one file for each task of `locomotion_tasks(config)`, in any order.
+        gate_waived: whether models below the gate are taken as well.
 
     Raises:
         SldrError: something that would fail again: a bad file, a missing model, a full disk, diverged numbers.
@@ -60,7 +63,7 @@ def train(config: TrainConfig, recorder: Recorder, locomotion_models: Sequence[P
     with alone_in(recorder.directory):
         # Read before anything is built: building would replace the replay file of another config.
         kept = read_newest(recorder.directory, config)
-        parts = build_training(config, recorder.directory, locomotion_models)
+        parts = build_training(config, recorder.directory, locomotion_models, gate_waived)
         counters = restore_training(kept, parts) if kept else Counters()
         try:
             stopped = _Loop(parts, counters, recorder).run()

@@ -1,4 +1,4 @@
-"""Runs through the API: table, detail, history, cancel, curves."""
+"""Runs through the API: table, detail, history, attempts, curves."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import pytest
 from live_api import Service, problem_fields
 
 from backend.store.metrics import MetricPoint, append_metrics
-from backend.store.outcomes import Succeeded
+from backend.store.outcomes import Failed, HandedBack
 from backend.store.progress import Progress, report_progress
 from backend.store.queue import finish
 from sldr_core.records import Step
@@ -45,6 +45,7 @@ def test_filters_narrow_the_table(service: Service):
         ({"limit": "many"}, "limit"),
         ({"cursor": "next"}, "cursor"),
         ({"cursor": "9" * 40}, "cursor"),
+        ({"sort": "colour"}, "sort"),
     ],
 )
 def test_a_filter_that_cannot_work_is_named(unused_service: Service, params: dict[str, str], field: str):
@@ -75,36 +76,24 @@ def test_a_run_tells_what_there_is_to_watch(service: Service):
     assert (run["has_policy"], run["has_recording"]) == (True, True)
 
 
-@pytest.mark.parametrize("part", ["", "/metrics", "/log", "/events", "/files", "/files/log.txt"])
+def test_the_table_is_sorted_on_the_server_across_pages(service: Service):
+    ids = service.launch(seeds=(0, 1, 2))
+    for success in (0.5, 0.9):
+        held = service.claim()
+        report_progress(service.database, held, Progress(1, 2, 400, 8, 16, 0.25, success, success, None, None, None))
+    params = {"sort": "success", "limit": 2}
+    first = service.get("/api/runs", params=params)
+    second = service.get("/api/runs", params=params | {"cursor": first["next_cursor"]})
+    assert [run["id"] for run in first["runs"] + second["runs"]] == [ids[1], ids[0], ids[2]]
+    oldest = service.get("/api/runs", params={"descending": False, "limit": 1})
+    assert [run["id"] for run in oldest["runs"]] == ids[:1]
+
+
+@pytest.mark.parametrize("part", ["", "/metrics", "/attempts", "/log", "/events", "/files", "/files/log.txt"])
 def test_an_unknown_run_is_not_found(unused_service: Service, part: str):
     answer = unused_service.client.get(f"/api/runs/nope{part}")
     assert answer.status_code == 404
     assert "'nope'" in answer.json()["problems"][0]["message"]
-
-
-def test_a_waiting_run_is_cancelled_at_once(service: Service):
-    [run_id] = service.launch()
-    answer = service.client.post(f"/api/runs/{run_id}/cancel")
-    assert (answer.status_code, answer.json()["state"]) == (200, "cancelled")
-
-
-def test_a_running_run_is_asked_to_end(service: Service):
-    [run_id] = service.launch()
-    service.claim()
-    answer = service.client.post(f"/api/runs/{run_id}/cancel").json()
-    assert (answer["state"], answer["cancel_requested"]) == ("running", True)
-
-
-def test_an_ended_run_cannot_be_cancelled(service: Service):
-    [run_id] = service.launch()
-    finish(service.database, service.claim(), Succeeded(success_rate=1.0))
-    answer = service.client.post(f"/api/runs/{run_id}/cancel")
-    assert answer.status_code == 409
-    assert "succeeded" in answer.json()["problems"][0]["message"]
-
-
-def test_cancelling_an_unknown_run_is_not_found(unused_service: Service):
-    assert unused_service.client.post("/api/runs/nope/cancel").status_code == 404
 
 
 def test_the_history_of_a_run_is_told_oldest_first(service: Service):
@@ -129,3 +118,34 @@ def test_curves_come_in_columns_and_go_on_from_the_cursor(service: Service):
 def test_a_cursor_of_curves_below_zero_is_named(unused_service: Service):
     answer = unused_service.client.get("/api/runs/nope/metrics", params={"after": -1})
     assert problem_fields(answer) == ["after"]
+
+
+def resumed_run(service: Service) -> str:
+    """Return a run whose second attempt went back to cycle 2."""
+    [run_id] = service.launch()
+    for cycles, value in (((1, 2, 3), 0.1), ((2, 3), 0.2)):
+        held = service.claim()
+        points = [MetricPoint(step(cycle), {"test/success_rate": value}) for cycle in cycles]
+        append_metrics(service.database, held, points)
+        finish(service.database, held, HandedBack("Its worker was asked to end."))
+    return run_id
+
+
+def test_points_that_a_later_attempt_replaced_are_read_when_asked_for(service: Service):
+    run_id = resumed_run(service)
+    current = service.get(f"/api/runs/{run_id}/metrics")
+    everything = service.get(f"/api/runs/{run_id}/metrics", params={"superseded": True})
+    assert (current["attempt"], current["step"]) == ([1, 2, 2], [1, 2, 3])
+    assert (everything["attempt"], everything["step"]) == ([1, 1, 1, 2, 2], [1, 2, 3, 2, 3])
+
+
+def test_the_attempts_of_a_run_say_where_they_began_and_how_they_ended(service: Service):
+    run_id = resumed_run(service)
+    finish(service.database, service.claim(), Failed("The loss became NaN.", retry=False))
+    attempts = service.get(f"/api/runs/{run_id}/attempts")["attempts"]
+    assert [(row["attempt"], row["first_cycle"], row["outcome"], row["host"]) for row in attempts] == [
+        (1, 1, "handed_back", "here"),
+        (2, 2, "handed_back", "here"),
+        (3, None, "failed", "here"),
+    ]
+    assert attempts[2]["reason"] == "The loss became NaN."

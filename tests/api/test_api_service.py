@@ -31,13 +31,6 @@ def test_health_is_ok_with_a_worker_and_a_viewer(service: Service):
     assert service.get("/healthz")["status"] == "ok"
 
 
-def test_workers_are_listed_with_what_they_do(service: Service):
-    service.launch()
-    service.claim()
-    [worker] = service.get("/api/workers")["workers"]
-    assert (worker["host"], worker["slots"], worker["busy"], worker["alive"]) == ("here", 1, 1, True)
-
-
 @pytest.mark.parametrize("path", ["/api", "/api/", "/api/nope", "/api/runs/x/nope"])
 def test_unknown_addresses_of_the_api_are_json_even_for_browsers(unused_service: Service, path: str):
     answer = unused_service.client.get(path, headers=BROWSER)

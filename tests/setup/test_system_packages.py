@@ -28,12 +28,15 @@ class Machine:
         self.calls = root / "calls"
         self.os_release = root / "os-release"
         self.os_release.write_text("ID=debian\n")
+        self.debian_postgres = root / "postgresql"
         for name in ("bash", "env"):
             (self.bin / name).symlink_to(shutil.which(name) or name)
         self.install("python3", NEW_PYTHON)
         self.install("node", "echo v20.20.2")
         self.install("npm", "echo 11.0.0")
         self.install("chromium", "echo Chromium 150")
+        self.install("initdb", "exit 1")
+        self.install("postgres", "exit 1")
         self.install("dpkg-query", EVERY_PACKAGE)
         self.install("apt-get", f'echo "$*" >>{self.calls}')
         self.install("id", "echo 1000")
@@ -49,7 +52,12 @@ class Machine:
     def run(self, script: str, *arguments: str, **settings: str) -> subprocess.CompletedProcess[str]:
         return subprocess.run(
             ["/bin/bash", CI / script, *arguments],
-            env={"PATH": str(self.bin), "OS_RELEASE": str(self.os_release), **settings},
+            env={
+                "PATH": str(self.bin),
+                "OS_RELEASE": str(self.os_release),
+                "POSTGRES_ROOT": str(self.debian_postgres),
+                **settings,
+            },
             capture_output=True,
             text=True,
             timeout=TIMEOUT_S,
@@ -247,3 +255,37 @@ def test_the_browser_that_is_named_is_used(machine: Machine) -> None:
     machine.install("mine", "echo Chromium 150")
 
     assert machine.run("find-chromium.sh", SLDR_CHROMIUM="mine").stdout == f"{machine.bin / 'mine'}\n"
+
+
+def test_running_needs_no_postgresql(machine: Machine) -> None:
+    machine.remove("postgres")
+
+    assert machine.run("system-packages.sh", "run").returncode == 0
+
+
+def test_the_tests_ask_for_postgresql(machine: Machine) -> None:
+    machine.remove("postgres")
+
+    result = machine.run("system-packages.sh", "test")
+
+    assert result.returncode == 1
+    assert "sudo apt-get install -y postgresql" in result.stderr
+
+
+def test_the_postgresql_of_debian_is_found_outside_the_path(machine: Machine) -> None:
+    programs = machine.debian_postgres / "15" / "bin"
+    programs.mkdir(parents=True)
+    for name in ("initdb", "postgres"):
+        (machine.bin / name).rename(programs / name)
+
+    assert machine.run("find-postgres.sh").stdout == f"{programs}\n"
+
+
+def test_no_postgresql_gets_one_sentence(machine: Machine) -> None:
+    machine.remove("initdb")
+
+    result = machine.run("find-postgres.sh")
+
+    assert result.returncode == 1
+    assert result.stderr.count("\n") == 1
+    assert "install them with: sudo apt-get install -y postgresql" in result.stderr

@@ -8,22 +8,25 @@ import sys
 import threading
 import time
 from datetime import datetime
+from pathlib import Path
 
 import pytest
 from alembic.autogenerate import compare_metadata
 from alembic.config import Config
 from alembic.migration import MigrationContext
 from alembic.script import ScriptDirectory
-from sqlalchemy import Connection, select
+from sqlalchemy import Connection, select, text
 from sqlalchemy.exc import IntegrityError, StatementError
-from store_cases import queued_run
+from store_cases import claimed_run, queued_run
+from store_engines import Stores
 
-from backend.store import database as database_module
-from backend.store import migrations
+from backend.store import engines, migrations
+from backend.store.claims import hold_fence
 from backend.store.database import Database, open_database
-from backend.store.errors import StoreUnavailable
+from backend.store.errors import StoreTooNew, StoreUnavailable, Unstorable
+from backend.store.metrics import append_metrics
 from backend.store.runs import get_run
-from backend.store.settings import Settings, load_settings
+from backend.store.settings import Settings
 from backend.store.tables import SCHEMA_REVISION, metadata, run_needs, runs
 
 OPEN = "from backend.store.database import open_database; from backend.store.settings import load_settings; "
@@ -53,6 +56,14 @@ def test_the_tables_name_the_newest_migration() -> None:
     assert ScriptDirectory.from_config(config).get_current_head() == SCHEMA_REVISION
 
 
+def test_making_the_tables_is_not_worth_a_word(settings: Settings) -> None:
+    opening = python(
+        "import logging; logging.basicConfig(level=logging.INFO); open_database(load_settings())", settings
+    )
+
+    assert opening.communicate() == ("", "")
+
+
 def test_opening_again_keeps_what_is_there(db: Database, settings: Settings) -> None:
     run_id = queued_run(db)
     again = open_database(settings)
@@ -61,7 +72,12 @@ def test_opening_again_keeps_what_is_there(db: Database, settings: Settings) -> 
     again.close()
 
 
-def test_several_processes_can_open_a_fresh_store_at_once(settings: Settings) -> None:
+def test_several_processes_can_open_a_fresh_store_at_once(stores: Stores, tmp_path: Path) -> None:
+    with stores.fresh(tmp_path, empty=True) as settings:
+        _open_at_once(settings)
+
+
+def _open_at_once(settings: Settings) -> None:
     opened = [python("open_database(load_settings())", settings) for _ in range(4)]
 
     assert [process.communicate(timeout=60)[1] for process in opened] == [""] * 4
@@ -80,12 +96,14 @@ def test_rows_cannot_point_to_what_does_not_exist(db: Database) -> None:
         conn.execute(run_needs.insert().values(run_id="nobody", needs_run_id="nothing"))
 
 
-def test_writers_wait_for_each_other(db: Database) -> None:
+def test_writers_of_one_run_wait_for_each_other(db: Database) -> None:
+    claim = claimed_run(db)
     order: list[str] = []
     entered = threading.Event()
 
     def hold() -> None:
-        with db.write():
+        with db.write() as conn:
+            hold_fence(conn, claim)
             entered.set()
             time.sleep(0.1)
             order.append("first")
@@ -93,7 +111,8 @@ def test_writers_wait_for_each_other(db: Database) -> None:
     thread = threading.Thread(target=hold)
     thread.start()
     entered.wait()
-    with db.write():
+    with db.write() as conn:
+        hold_fence(conn, claim)
         order.append("second")
     thread.join()
 
@@ -114,13 +133,30 @@ def test_a_failed_transaction_leaves_nothing(db: Database) -> None:
     assert get_run(db, run_id).reason is None
 
 
-def test_a_store_that_cannot_be_used_says_so(settings: Settings, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(database_module, "BUSY_TIMEOUT_S", 0.05)
+def test_a_writer_that_waits_too_long_says_so(settings: Settings, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(engines, "BUSY_TIMEOUT_S", 0.05)
     db = open_database(settings)
+    claim = claimed_run(db)
 
-    with db.write(), pytest.raises(StoreUnavailable, match="database is locked"), db.write():
-        pass
+    with db.write() as conn:
+        hold_fence(conn, claim)
+        with pytest.raises(StoreUnavailable, match="lock"):
+            append_metrics(db, claim, [])
     db.close()
+
+
+@pytest.mark.parametrize("engine", ["postgresql"], scope="session")
+def test_a_value_that_postgresql_cannot_hold_is_told_in_words(db: Database) -> None:
+    with pytest.raises(Unstorable, match=r"cannot hold or compare a value: .*NUL"):
+        get_run(db, "a\x00b")
+
+
+def test_a_store_of_a_later_version_is_left_alone(db: Database, settings: Settings) -> None:
+    with db.write() as conn:
+        conn.execute(text("UPDATE alembic_version SET version_num = '9999'"))
+
+    with pytest.raises(StoreTooNew, match="of revision 9999, which this version does not know"):
+        open_database(settings)
 
 
 def test_times_without_a_zone_are_refused(db: Database) -> None:
@@ -134,17 +170,3 @@ def test_the_store_loads_neither_torch_nor_mujoco(settings: Settings) -> None:
     process = python(code + "import sys; print([m for m in ('torch', 'mujoco') if m in sys.modules])", settings)
 
     assert process.communicate(timeout=60) == ("[]\n", "")
-
-
-def test_settings_come_from_the_environment(monkeypatch: pytest.MonkeyPatch, settings: Settings) -> None:
-    for name, value in settings.as_environment().items():
-        monkeypatch.setenv(name, value)
-
-    assert load_settings() == settings
-
-
-def test_without_an_address_the_store_lies_in_the_data_directory(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("SLDR_HOME", "/data/sldr")
-    monkeypatch.delenv("SLDR_DATABASE_URL", raising=False)
-
-    assert load_settings().database_url == "sqlite:////data/sldr/sldr.db"

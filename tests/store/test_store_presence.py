@@ -10,10 +10,11 @@ from store_cases import claim_next, queued_run
 
 from backend.store.database import Database, current_time
 from backend.store.errors import NotFound
+from backend.store.queue import claim
 from backend.store.tables import viewer_hosts, workers
 from backend.store.viewer_sessions import (
     beat_host,
-    end_sessions_of_other_hosts,
+    end_orphaned_sessions,
     get_session,
     is_host_alive,
     list_open,
@@ -22,7 +23,7 @@ from backend.store.viewer_sessions import (
     next_requested,
     request_session,
 )
-from backend.store.workers import ALIVE_S, beat, list_workers, register_worker, retire
+from backend.store.workers import ALIVE_S, Machine, beat, list_workers, register_worker, retire, set_draining
 
 
 def age(db: Database, table, seconds: float) -> None:
@@ -109,16 +110,85 @@ def test_an_ended_session_does_not_become_ready(db: Database) -> None:
     assert get_session(db, session_id).state == "failed"
 
 
-def test_a_new_host_ends_what_a_dead_one_left(db: Database) -> None:
-    run_id = queued_run(db)
-    left, fresh = request_session(db, run_id), request_session(db, run_id)
-    next_requested(db, "dead")
+def taken_by(db: Database, host_id: str) -> str:
+    asked = request_session(db, queued_run(db))
+    next_requested(db, host_id)
+    return asked.id
 
-    assert end_sessions_of_other_hosts(db, "new", "The viewer was restarted.") == 1
-    assert get_session(db, left.id).state == "ended"
-    assert get_session(db, fresh.id).state == "starting"
+
+def orphans_end(db: Database, running: set[int]) -> None:
+    end_orphaned_sessions(db, "mine", "here", running.__contains__, "The viewer was restarted.")
+
+
+def test_the_sessions_of_a_viewer_host_whose_process_is_gone_end(db: Database) -> None:
+    beat_host(db, "mine", 10, "here")
+    beat_host(db, "dead", 11, "here")
+    left = taken_by(db, "dead")
+    fresh = request_session(db, queued_run(db)).id
+
+    orphans_end(db, running=set())
+
+    assert get_session(db, left).state == "ended"
+    assert get_session(db, left).message == "The viewer was restarted."
+    assert get_session(db, fresh).state == "starting"
+
+
+def test_the_sessions_of_living_viewer_hosts_stay(db: Database) -> None:
+    beat_host(db, "mine", 10, "here")
+    beat_host(db, "neighbour", 11, "here")
+    beat_host(db, "elsewhere", 12, "there")
+    sessions = [taken_by(db, host_id) for host_id in ("mine", "neighbour", "elsewhere")]
+
+    orphans_end(db, running={11})
+
+    assert [get_session(db, session).state for session in sessions] == ["starting"] * 3
+
+
+def test_the_sessions_of_a_viewer_host_that_fell_silent_elsewhere_end(db: Database) -> None:
+    beat_host(db, "elsewhere", 12, "there")
+    age(db, viewer_hosts, 60.0)
+    beat_host(db, "mine", 10, "here")
+    left = taken_by(db, "elsewhere")
+
+    orphans_end(db, running={12})
+
+    assert get_session(db, left).state == "ended"
 
 
 def test_a_session_needs_a_run(db: Database) -> None:
     with pytest.raises(NotFound, match="no run 'nobody'"):
         request_session(db, "nobody")
+
+
+def test_a_worker_shows_what_it_has_and_what_it_runs(db: Database) -> None:
+    machine = Machine(cores=16, gpu="H200", memory_total=128, executor="ray")
+    worker_id = register_worker(db, "here", 123, 4, machine)
+    claims = [(queued_run(db), claim_next(db, worker_id))[1] for _ in range(2)]
+    beat(db, worker_id, memory_used=64)
+
+    (worker,) = list_workers(db)
+
+    assert (worker.cores, worker.gpu, worker.executor) == (16, "H200", "ray")
+    assert (worker.memory_total, worker.memory_used) == (128, 64)
+    assert worker.running == tuple(claim.run_id for claim in claims)
+    assert worker.busy == 2
+
+
+def test_a_draining_worker_takes_nothing_until_it_is_let(db: Database) -> None:
+    draining, other = (register_worker(db, "here", pid, 1) for pid in (1, 2))
+    set_draining(db, draining, True)
+    first, second = queued_run(db), queued_run(db)
+
+    assert claim(db, draining) is None
+    assert claim_next(db, other).run_id == first
+    assert [worker.draining for worker in list_workers(db)] == [True, False]
+    set_draining(db, draining, False)
+    assert claim_next(db, draining).run_id == second
+
+
+def test_a_worker_that_has_ended_cannot_drain(db: Database) -> None:
+    worker_id = register_worker(db, "here", 1, 1)
+    retire(db, worker_id)
+
+    with pytest.raises(NotFound, match=f"no worker '{worker_id}'"):
+        set_draining(db, worker_id, True)

@@ -6,11 +6,11 @@ from collections.abc import Iterator
 
 import pytest
 from store_cases import put_in_state, queued_run
+from store_engines import Stores
 
 from backend.store.database import Database, current_time, open_database
 from backend.store.errors import NotFound, StaleFence, WrongState
 from backend.store.runs import get_run, list_events
-from backend.store.settings import Settings, sqlite_url
 from backend.store.states import ENDED, TRANSITIONS, Event, RunState, change_state
 
 EXPECTED = {
@@ -61,11 +61,11 @@ FORBIDDEN = [pair for pair in PAIRS if pair not in EXPECTED]
 
 
 @pytest.fixture(scope="module")
-def shared_db(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Database]:
-    home = tmp_path_factory.mktemp("states")
-    database = open_database(Settings(home=home, database_url=sqlite_url(home)))
-    yield database
-    database.close()
+def shared_db(stores: Stores, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Database]:
+    with stores.fresh(tmp_path_factory.mktemp("states")) as settings:
+        database = open_database(settings)
+        yield database
+        database.close()
 
 
 def happen(db: Database, run_id: str, event: Event, to: RunState | None = None, fence: int | None = None) -> None:

@@ -20,7 +20,7 @@ from worker.recorder import StoreRecorder
 from worker.words import StopWord
 
 CYCLE_S = 0.02
-LAST_CYCLE = {"counts": 5, "lasts": 100_000}
+LAST_CYCLE = {"counts": 5, "counts-far": 100, "strolls": 200, "lasts": 100_000}
 
 
 @dataclass(frozen=True)
@@ -49,14 +49,17 @@ def count(recorder: StoreRecorder, last_cycle: int) -> Result:
     return Result()
 
 
-def train(config: TrainConfig, recorder: StoreRecorder, locomotion_models: Sequence[Path]) -> Result:
+def train(config: TrainConfig, recorder: StoreRecorder, locomotion_models: Sequence[Path], gate_waived: bool) -> Result:
     behaviour = sys.argv[1]
     if behaviour not in LAST_CYCLE:
         recorder.log(step(1), {"test/success_rate": 0.25})
     match behaviour:
-        case "counts" | "lasts":
+        case "counts" | "counts-far" | "strolls" | "lasts":
             return count(recorder, LAST_CYCLE[behaviour])
         case "is-deaf":
+            time.sleep(3600.0)
+        case "hangs-once" if not (recorder.directory / "hung").exists():
+            (recorder.directory / "hung").touch()
             time.sleep(3600.0)
         case "diverges":
             raise TrainingDiverged("Metric critic/task/loss became nan; lower the learning rate.")

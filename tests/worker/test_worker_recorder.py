@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Sequence
+import time
+from collections.abc import Generator, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
+from datetime import datetime
 from pathlib import Path
 
 import pytest
+from sqlalchemy import Connection, select
 
 from backend.store import metrics
 from backend.store.claims import Claim
-from backend.store.database import Database
-from backend.store.errors import StaleFence
+from backend.store.database import Database, open_database
+from backend.store.errors import StaleFence, StoreUnavailable
 from backend.store.files import find_file, list_files, register_file
 from backend.store.launches import LaunchOrder, launch
 from backend.store.metrics import MetricPoint, append_metrics, read_metrics
@@ -20,9 +24,11 @@ from backend.store.outcomes import HandedBack, Succeeded
 from backend.store.queue import claim, finish
 from backend.store.runs import get_run
 from backend.store.settings import Settings
+from backend.store.tables import runs
 from sldr_core.errors import BadFile, LocomotionMissing, TrainingDiverged
 from sldr_core.records import Step
 from worker.locomotion_files import find_locomotion_models
+from worker.metric_writer import MetricWriter
 from worker.recorder import Curves, StoreRecorder, WriteCurves, read_curves
 
 STEP = Step(cycle=1, epoch=1, env_steps=200, episodes=4, updates=4, wall_seconds=0.5)
@@ -135,6 +141,98 @@ def test_a_stale_attempt_cannot_register_files(db: Database, settings: Settings,
     assert list_files(db, locomotion_claim.run_id) == []
 
 
+def test_what_was_logged_before_a_checkpoint_is_stored_before_it(
+    db: Database, settings: Settings, locomotion_claim: Claim
+) -> None:
+    stored_at_checkpoint: list[list[int]] = []
+
+    def write(path: Path) -> None:
+        path.write_bytes(b"state")
+        stored_at_checkpoint.append(read_metrics(db, locomotion_claim.run_id).step)
+
+    with record(db, settings, locomotion_claim) as recorder:
+        recorder.log(STEP, {"test/success_rate": 0.5})
+        recorder.save_file("checkpoint.pt", "checkpoint", write)
+
+    assert stored_at_checkpoint == [[1]]
+
+
+class FlakyDatabase(Database):
+    """A store that cannot be written now and then, or whose answer gets lost."""
+
+    def __init__(self, settings: Settings) -> None:
+        self.__dict__.update(open_database(settings).__dict__)
+        self.outages = 0
+        self.lost_answers = 0
+
+    @contextmanager
+    def write(self) -> Generator[Connection]:
+        if self.outages > 0:
+            self.outages -= 1
+            raise StoreUnavailable("The store cannot be used just now: it is being restarted.")
+        with super().write() as conn:
+            yield conn
+        if self.lost_answers > 0:
+            self.lost_answers -= 1
+            raise StoreUnavailable("The store cannot be used just now: the answer was lost.")
+
+
+def test_nothing_is_lost_while_the_store_is_away(db: Database, settings: Settings, locomotion_claim: Claim) -> None:
+    flaky = FlakyDatabase(settings)
+    with record(flaky, settings, locomotion_claim) as recorder:
+        flaky.outages = 3
+        recorder.log(STEP, {"test/success_rate": 0.5})
+        recorder.save_file("policy.pt", "policy", write_model)
+        flaky.outages = 3
+        recorder.log(replace(STEP, cycle=2), {"test/success_rate": 0.5})
+    flaky.close()
+
+    assert flaky.outages == 0
+    assert read_metrics(db, locomotion_claim.run_id).step == [1, 2]
+    assert [row.name for row in list_files(db, locomotion_claim.run_id)] == ["policy.pt"]
+
+
+def test_a_batch_whose_answer_was_lost_is_stored_once(
+    db: Database, settings: Settings, locomotion_claim: Claim
+) -> None:
+    flaky = FlakyDatabase(settings)
+    with record(flaky, settings, locomotion_claim) as recorder:
+        flaky.lost_answers = 2
+        recorder.log(STEP, {"test/success_rate": 0.5})
+        recorder.save_file("checkpoint.pt", "checkpoint", write_model)
+    flaky.close()
+
+    assert flaky.lost_answers == 0
+    assert read_metrics(db, locomotion_claim.run_id).values == {"test/success_rate": [0.5]}
+
+
+def progress_at(db: Database, claimed: Claim) -> datetime:
+    with db.read() as conn:
+        return conn.execute(select(runs.c.progress_at).where(runs.c.id == claimed.run_id)).scalar_one()
+
+
+def test_a_training_that_goes_on_without_logging_shows_that_it_does(db: Database, locomotion_claim: Claim) -> None:
+    writer = MetricWriter(db, locomotion_claim, interval_s=0.01, stamp_s=0.02)
+    before = progress_at(db, locomotion_claim)
+    give_up_at = time.monotonic() + 30.0
+    while progress_at(db, locomotion_claim) == before and time.monotonic() < give_up_at:
+        writer.check()
+        time.sleep(0.01)
+    writer.close()
+
+    assert progress_at(db, locomotion_claim) > before
+
+
+def test_a_training_that_hangs_shows_no_sign_of_going_on(db: Database, locomotion_claim: Claim) -> None:
+    writer = MetricWriter(db, locomotion_claim, interval_s=0.01, stamp_s=0.02)
+    before = progress_at(db, locomotion_claim)
+    time.sleep(0.3)
+    after = progress_at(db, locomotion_claim)
+    writer.close()
+
+    assert after == before
+
+
 def test_the_curves_of_every_attempt_are_written_at_the_end(
     db: Database, settings: Settings, locomotion_claim: Claim
 ) -> None:
@@ -195,7 +293,7 @@ def test_a_model_that_is_gone_is_named(db: Database, settings: Settings, locomot
     dependent = next_claim(db, locomotion_claim)
     path.unlink()
 
-    with pytest.raises(LocomotionMissing, match=f"{path} is gone"):
+    with pytest.raises(LocomotionMissing, match=f"of run {locomotion_claim.run_id} is not there .{path} is gone"):
         find_locomotion_models(db, settings, dependent)
 
 

@@ -55,7 +55,7 @@ def test_a_killed_child_is_tried_again_and_goes_on(db: Database, settings: Setti
         os.kill(pid, signal.SIGKILL)
         wait_until(lambda: max(read_metrics(db, run_id).attempt, default=0) == 2)
 
-    lost = next(event for event in list_events(db, run_id) if event.event == "retried")
+    lost = next(event for event in list_events(db, run_id) if event.event == "lost")
     assert lost.state is RunState.QUEUED
     assert lost.detail == "Its process was killed by SIGKILL (the machine may be out of memory)."
 

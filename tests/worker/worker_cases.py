@@ -17,6 +17,7 @@ from backend.store.metrics import read_metrics
 from backend.store.runs import RunRow, get_run
 from backend.store.settings import Settings
 from backend.store.states import RunState
+from backend.store.workers import Machine
 from worker.executors.local import LocalExecutor
 from worker.supervisor import Supervisor, Timing
 
@@ -40,9 +41,11 @@ def fake_command(behaviour: str) -> list[str]:
 
 
 @contextmanager
-def worker(db: Database, settings: Settings, behaviour: str, timing: Timing = TIMING) -> Generator[Supervisor]:
+def worker(
+    db: Database, settings: Settings, behaviour: str, timing: Timing = TIMING, machine: Machine | None = None
+) -> Generator[Supervisor]:
     """Run a supervisor in a thread for as long as the block lasts."""
-    supervisor = Supervisor(db, LocalExecutor(settings, fake_command(behaviour)), 1, timing)
+    supervisor = Supervisor(db, LocalExecutor(settings, fake_command(behaviour)), 1, timing, machine)
     thread = threading.Thread(target=supervisor.run)
     thread.start()
     try:
@@ -54,11 +57,12 @@ def worker(db: Database, settings: Settings, behaviour: str, timing: Timing = TI
 
 
 @contextmanager
-def worker_process(settings: Settings, behaviour: str) -> Generator[subprocess.Popen[bytes]]:
+def worker_process(
+    settings: Settings, behaviour: str, lease_s: float = TIMING.lease_s
+) -> Generator[subprocess.Popen[bytes]]:
     """Run a supervisor in a process of its own."""
-    process = subprocess.Popen(
-        [sys.executable, str(HERE / "fake_worker.py"), behaviour], env={**os.environ, **settings.as_environment()}
-    )
+    command = [sys.executable, str(HERE / "fake_worker.py"), behaviour, str(lease_s)]
+    process = subprocess.Popen(command, env={**os.environ, **settings.as_environment()})
     try:
         yield process
     finally:

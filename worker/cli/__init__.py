@@ -11,7 +11,8 @@ from sldr_core.errors import SldrError, UnknownName
 
 COMMANDS = {
     "serve": "Serve the page in the browser, with a worker and the 3D viewer.",
-    "worker": "Train queued runs on this machine.",
+    "worker": "Train queued runs, on this machine or on a cluster.",
+    "node": "Make this machine a node of a cluster.",
     "viewer": "Serve 3D views of policies to the page.",
     "train": "Train here and now, without page and queue.",
     "evaluate": "Measure the success of a trained policy.",

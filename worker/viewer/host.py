@@ -8,22 +8,28 @@ import os
 import signal
 import socket
 import time
+import uuid
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection
 from multiprocessing.context import SpawnProcess
 from pathlib import Path
 
+import psutil
+
 from backend.store import viewer_sessions
 from backend.store.database import Database
+from backend.store.errors import FilesUnavailable
 from backend.store.settings import Settings
+from sldr_core.errors import SldrError
+from worker.viewer.newest_policy import NewestPolicies
 from worker.viewer.reports import Broken, Job, Ready, Report, Watched
-
-POLICY_FILES = ("policy-newest.pt", "policy-best.pt")
-"""What of a run is shown, the first that there is."""
 
 ENDING_S = 3.0
 """A session process that was asked to end and has not by then is killed [s]."""
+
+ORPHANED = "The 3D viewer was started again; open the view once more."
+"""What a session says whose host is no more."""
 
 Target = Callable[[Job, Connection], None]
 """What a session process runs."""
@@ -50,6 +56,8 @@ class Served:
     """Follow one session and its process."""
 
     session_id: str
+    run_id: str
+    policy: Path
     process: SpawnProcess
     pipe: Connection
     idle_since: float
@@ -68,15 +76,18 @@ class Host:
     settings: Settings
     target: Target
     limits: Limits = field(default_factory=Limits)
-    host_id: str = field(default_factory=lambda: f"{socket.gethostname()}-{os.getpid()}")
+    host_id: str = field(default_factory=lambda: uuid.uuid4().hex[:12])
     served: dict[str, Served] = field(default_factory=dict)
     _beat_at: float = field(default=-1e9, init=False)
+    _policies: NewestPolicies = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Make ready to find policies."""
+        self._policies = NewestPolicies(self.database, self.settings)
 
     def begin(self) -> None:
-        """Announce the host, and end what an earlier one left open."""
-        viewer_sessions.beat_host(self.database, self.host_id, os.getpid())
-        message = "The 3D viewer was started again; open the view once more."
-        viewer_sessions.end_sessions_of_other_hosts(self.database, self.host_id, message)
+        """Announce the host, and end what dead ones left open."""
+        self._beat(time.monotonic())
 
     def tick(self) -> None:
         """Hear the sessions, end those that are over, start those that are asked for."""
@@ -100,7 +111,11 @@ class Host:
         session = viewer_sessions.next_requested(self.database, self.host_id)
         if session is None:
             return
-        policy = self._find_policy(session.run_id)
+        try:
+            policy = self._policies.find(session.run_id)
+        except (SldrError, FilesUnavailable) as err:
+            viewer_sessions.mark_ended(self.database, session.id, failed=True, message=str(err))
+            return
         if policy is None:
             message = f"Run {session.run_id} has no policy to watch yet; wait for its first test."
             viewer_sessions.mark_ended(self.database, session.id, failed=True, message=message)
@@ -108,21 +123,17 @@ class Host:
             message = f"All {self.limits.sessions} 3D views of this machine are being watched; close one and try again."
             viewer_sessions.mark_ended(self.database, session.id, failed=True, message=message)
         else:
-            self.served[session.id] = self._start(session.id, policy, now)
+            self.served[session.id] = self._start(session, policy, now)
 
-    def _start(self, session_id: str, policy: Path, now: float) -> Served:
+    def _start(self, session: viewer_sessions.Session, policy: Path, now: float) -> Served:
         context = multiprocessing.get_context("spawn")
         ours, theirs = context.Pipe()
-        job = Job(session_id, policy, os.getpid())
-        process = context.Process(target=self.target, args=(job, theirs), name=f"viewer-session-{session_id}")
+        job = Job(session.id, policy, os.getpid())
+        process = context.Process(target=self.target, args=(job, theirs), name=f"viewer-session-{session.id}")
         process.start()
         theirs.close()
-        log.info("session %s of %s started as process %s", session_id, policy.parent.name, process.pid)
-        return Served(session_id, process, ours, idle_since=now)
-
-    def _find_policy(self, run_id: str) -> Path | None:
-        paths = [self.settings.run_directory(run_id) / name for name in POLICY_FILES]
-        return next((path for path in paths if path.is_file()), None)
+        log.info("session %s of %s started as process %s", session.id, session.run_id, process.pid)
+        return Served(session.id, session.run_id, policy, process, ours, idle_since=now)
 
     def _make_room(self) -> bool:
         """End the session that nobody has watched for longest if there is no room, and tell whether there is now."""
@@ -181,10 +192,24 @@ class Host:
 
     def _beat(self, now: float) -> None:
         self._beat_at = now
-        viewer_sessions.beat_host(self.database, self.host_id, os.getpid())
+        machine = socket.gethostname()
+        viewer_sessions.beat_host(self.database, self.host_id, os.getpid(), machine)
+        viewer_sessions.end_orphaned_sessions(self.database, self.host_id, machine, _is_another_process, ORPHANED)
         for served in self.served.values():
             if served.clients:
                 viewer_sessions.touch(self.database, served.session_id)
+                self._renew_policy(served)
+
+    def _renew_policy(self, served: Served) -> None:
+        try:
+            self._policies.renew(served.run_id, served.policy)
+        except (SldrError, FilesUnavailable) as err:
+            log.warning("session %s goes on with the policy it has: %s", served.session_id, err)
+
+
+def _is_another_process(pid: int) -> bool:
+    """Tell whether a process of this machine lives and is not this one, which may have inherited the number."""
+    return pid != os.getpid() and psutil.pid_exists(pid)
 
 
 def _ending(exit_code: int | None) -> str:

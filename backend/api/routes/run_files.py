@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 from typing import Annotated
 from urllib.parse import quote
 
 from fastapi import APIRouter, Header, Query
-from fastapi.responses import FileResponse
+from fastapi.responses import FileResponse, Response
 
-from backend.api.dependencies import ServiceSettings, Store
-from backend.api.errors import ApiError, problem_responses
+from backend.api.dependencies import ServiceSettings, Storage, Store
+from backend.api.downloads import send_file
+from backend.api.errors import problem_responses
 from backend.api.routes.runs import LARGEST_CURSOR
 from backend.api.schemas import LogTail, RunFile, RunFiles
 from backend.store import files, runs
+from backend.store.database import Database
+from backend.store.errors import NotFound
+from backend.store.storage import FileStorage
 
+LOG_FILE = "log.txt"
 LOG_PIECE = 64 * 1024
 """Most of a log that one answer holds [bytes]."""
 
@@ -27,6 +31,7 @@ def get_run_log(
     run_id: str,
     store: Store,
     settings: ServiceSettings,
+    storage: Storage,
     after: Annotated[
         int | None,
         Query(ge=0, le=LARGEST_CURSOR, description="`offset` of the answer before; left out: the end of the log."),
@@ -34,7 +39,7 @@ def get_run_log(
 ) -> LogTail:
     """Return the end of a run's log, or what was written after an offset."""
     runs.get_run(store, run_id)
-    return read_log(settings.run_directory(run_id) / "log.txt", after)
+    return read_log(_find_log(store, storage, settings.run_directory(run_id) / LOG_FILE), after)
 
 
 @router.get("/files", responses=problem_responses(404, 422))
@@ -65,18 +70,12 @@ def download_run_file(
     run_id: str,
     name: str,
     store: Store,
-    settings: ServiceSettings,
+    storage: Storage,
     byte_range: Annotated[str | None, Header(alias="Range", include_in_schema=False)] = None,
-) -> FileResponse:
+) -> Response:
     """Send one stored file, or the range of it that is asked for."""
     runs.get_run(store, run_id)
-    row = files.find_file(store, run_id, name)
-    path = (settings.home / row.path).resolve()
-    if not path.is_relative_to(settings.home.resolve()) or not path.is_file():
-        raise ApiError(404, f"File {name} of run {run_id} is recorded but no longer on the disk.")
-    if byte_range is not None:
-        _check_range(byte_range, path)
-    return FileResponse(path, media_type="application/octet-stream", filename=name)
+    return send_file(storage, files.find_file(store, run_id, name), byte_range)
 
 
 def read_log(path: Path, after: int | None) -> LogTail:
@@ -93,6 +92,18 @@ def read_log(path: Path, after: int | None) -> LogTail:
     return LogTail(text=piece.decode(errors="replace"), offset=start + len(piece))
 
 
+def _find_log(store: Database, storage: FileStorage, here: Path) -> Path:
+    """Return the path of a run's log: the one that this machine writes, or a copy of another machine's."""
+    if storage.shared is None:
+        return here
+    try:
+        row = files.find_file(store, here.parent.name, LOG_FILE)
+    except NotFound:
+        return here
+    is_written_here = here.is_file() and here.stat().st_mtime >= row.created_at.timestamp()
+    return here if is_written_here else storage.bring(row)
+
+
 def _whole_characters(piece: bytes) -> int:
     """Return how many bytes of `piece` are left without a UTF-8 character cut off at its end."""
     for back in range(1, min(4, len(piece)) + 1):
@@ -103,15 +114,3 @@ def _whole_characters(piece: bytes) -> int:
             length = 2 if byte < 0xE0 else 3 if byte < 0xF0 else 4
             return len(piece) - back if back < length else len(piece)
     return len(piece)
-
-
-def _check_range(byte_range: str, path: Path) -> None:
-    """Refuse in our own words what the server's file answers would refuse in theirs."""
-    size = path.stat().st_size
-    parts = re.fullmatch(r"bytes=(\d*)-(\d*)", byte_range.strip())
-    if parts is None or parts.groups() == ("", ""):
-        raise ApiError(416, f"Range '{byte_range}' cannot be answered; ask for one, as in bytes=0-1023.", "Range")
-    first, last = parts.groups()
-    outside = int(first) >= size or (last and int(last) < int(first)) if first else int(last) == 0
-    if outside:
-        raise ApiError(416, f"Range '{byte_range}' lies outside the file of {size} bytes.", "Range")

@@ -1,4 +1,4 @@
-"""Runs: the table, one run, its history and its curves."""
+"""Runs: the table, one run, its history, its attempts and its curves."""
 
 from __future__ import annotations
 
@@ -10,8 +10,10 @@ from fastapi import APIRouter, Query
 from backend.api.answers import run_detail, run_summary
 from backend.api.dependencies import Store
 from backend.api.errors import problem_responses
+from backend.api.queue_schemas import Attempt, Attempts
 from backend.api.schemas import MetricBatch, RunDetail, RunEvent, RunEvents, RunPage
-from backend.store import actions, files, metrics, runs
+from backend.store import attempts, files, metrics, runs
+from backend.store.run_order import SortKey
 from backend.store.states import RunState
 from sldr_core.config import Phase
 
@@ -34,12 +36,15 @@ def list_runs(
     search: Annotated[
         str | None, Query(max_length=200, description="Words that id, task, method, phase, preset or state hold.")
     ] = None,
+    deleted: Annotated[bool, Query(description="The runs that a person hid, instead of all others.")] = False,
+    sort: Annotated[SortKey, Query(description="`success` is that of the newest test.")] = "launched",
+    descending: bool = True,
     limit: Annotated[int, Query(ge=1, le=LARGEST_PAGE)] = 50,
     cursor: Annotated[str | None, Query(max_length=15, description="`next_cursor` of the page before.")] = None,
 ) -> RunPage:
-    """List runs, newest first, one page at a time."""
-    wanted = runs.RunFilter(state=state, task=task, method=method, phase=phase, search=search)
-    found = runs.list_runs(store, wanted, limit, cursor)
+    """List runs, one page at a time; the newest come first unless another order is asked for."""
+    wanted = runs.RunFilter(state=state, task=task, method=method, phase=phase, search=search, deleted=deleted)
+    found = runs.list_runs(store, wanted, limit, cursor, sort, descending)
     return RunPage(runs=[run_summary(row) for row in found.rows], next_cursor=found.next_cursor, total=found.total)
 
 
@@ -49,22 +54,36 @@ def get_run(run_id: str, store: Store) -> RunDetail:
     return run_detail(runs.get_run(store, run_id), files.list_files(store, run_id))
 
 
-@router.post("/{run_id}/cancel", responses=problem_responses(403, 404, 409, 422))
-def cancel_run(run_id: str, store: Store) -> RunDetail:
-    """End a run for good: at once if it waits, within seconds if it trains."""
-    actions.request_cancel(store, run_id)
-    return get_run(run_id, store)
-
-
 @router.get("/{run_id}/metrics", responses=problem_responses(404, 422))
 def get_run_metrics(
     run_id: str,
     store: Store,
     after: Annotated[int, Query(ge=0, le=LARGEST_CURSOR, description="`cursor` of the answer before.")] = 0,
+    superseded: Annotated[bool, Query(description="Whether to add the points that a later attempt replaced.")] = False,
 ) -> MetricBatch:
     """Return the points of a run after a cursor, oldest first; ask again until there are none."""
     runs.get_run(store, run_id)
-    return MetricBatch(**asdict(metrics.read_metrics(store, run_id, after)))
+    return MetricBatch(**asdict(metrics.read_metrics(store, run_id, after, superseded=superseded)))
+
+
+@router.get("/{run_id}/attempts", responses=problem_responses(404, 422))
+def list_run_attempts(run_id: str, store: Store) -> Attempts:
+    """Return a run's attempts, oldest first."""
+    return Attempts(
+        attempts=[
+            Attempt(
+                attempt=row.attempt,
+                worker_id=row.worker_id,
+                host=row.host,
+                started_at=row.started_at,
+                ended_at=row.ended_at,
+                outcome=row.outcome,
+                reason=row.reason,
+                first_cycle=row.first_cycle,
+            )
+            for row in attempts.list_attempts(store, run_id)
+        ]
+    )
 
 
 @router.get("/{run_id}/events", responses=problem_responses(404, 422))

@@ -5,13 +5,16 @@ import { RouterProvider } from '@tanstack/react-router';
 import { useState } from 'react';
 import type { AppRouter } from '@/app/router';
 import { cssVariables, theme } from '@/app/theme';
+import { Toasts } from '@/components/toasts';
 
 export function App({ router }: { router: AppRouter }) {
   const [queries] = useState(makeQueryClient);
   return (
     <MantineProvider theme={theme} cssVariablesResolver={cssVariables} defaultColorScheme="auto">
       <QueryClientProvider client={queries}>
-        <RouterProvider router={router} />
+        <Toasts>
+          <RouterProvider router={router} />
+        </Toasts>
       </QueryClientProvider>
     </MantineProvider>
   );

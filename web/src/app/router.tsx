@@ -37,6 +37,12 @@ const run = createRoute({
   component: lazyRouteComponent(() => import('@/features/run/run-page'), 'RunPage'),
 });
 
+const queue = createRoute({
+  getParentRoute: () => root,
+  path: '/queue',
+  component: lazyRouteComponent(() => import('@/features/queue/queue-page'), 'QueuePage'),
+});
+
 const workers = createRoute({
   getParentRoute: () => root,
   path: '/workers',
@@ -46,7 +52,7 @@ const workers = createRoute({
 /** Make the router; a test hands in a history of its own. */
 export function makeRouter(history?: RouterHistory) {
   return createRouter({
-    routeTree: root.addChildren([runs, launch, run, workers]),
+    routeTree: root.addChildren([runs, launch, run, queue, workers]),
     history,
     defaultNotFoundComponent: PageNotFound,
     defaultErrorComponent: PageBroke,

@@ -2,7 +2,7 @@ import { screen, waitFor, within } from '@testing-library/react';
 import { beforeEach, expect, test } from 'vitest';
 import type { FakeServer } from '@/testing/fake-server';
 import { openPage, startServer } from '@/testing/open-page';
-import { DETAIL, RUN } from '@/testing/samples';
+import { RUN } from '@/testing/samples';
 
 const LOCOMOTION = { ...RUN, id: 'run-0', phase: 'locomotion' as const, method: 'her' };
 const BLOCKED = {
@@ -79,20 +79,22 @@ test('a server that is away is announced, and the rows stay', async () => {
   expect(screen.getByText('The loss became NaN in epoch 3.')).toBeTruthy();
 });
 
-test('the config tab marks what differs from the preset', async () => {
-  server.on('GET /api/runs/run-1', () => ({ body: DETAIL }));
-  openPage('/runs/run-1?tab=config');
-  expect(await screen.findByText(/1 setting changed from the preset quick/)).toBeTruthy();
-  expect(screen.getByText('0.99')).toBeTruthy();
+test('a click on a column sorts on the server, and another turns the order round', async () => {
+  const { user, router } = openPage('/');
+  await user.click(await screen.findByRole('button', { name: /^Success/ }));
+  await waitFor(() => expect(router.state.location.search).toMatchObject({ sort: 'success' }));
+  await waitFor(() => expect(lastQuery().get('descending')).toBe('true'));
+  await user.click(screen.getByRole('button', { name: /^Success/ }));
+  await waitFor(() => expect(lastQuery().get('descending')).toBe('false'));
+  expect(screen.getByRole('columnheader', { name: /Success/ }).getAttribute('aria-sort')).toBe('ascending');
 });
 
-test('cancelling asks first, then tells the server', async () => {
-  server
-    .on('GET /api/runs/run-1', () => ({ body: DETAIL }))
-    .on('POST /api/runs/run-1/cancel', () => ({ body: { ...DETAIL, cancel_requested: true } }));
-  const { user } = openPage('/runs/run-1?tab=config');
-  await user.click(await screen.findByRole('button', { name: 'Cancel run' }));
-  await user.click(await screen.findByRole('button', { name: 'Yes, cancel it' }));
-  expect(await screen.findByText('cancelling')).toBeTruthy();
-  expect(server.bodiesOf('POST', '/api/runs/run-1/cancel')).toHaveLength(1);
+test('deleted runs have a list of their own', async () => {
+  const { user } = openPage('/');
+  await user.click(await screen.findByRole('switch', { name: 'Deleted' }));
+  await waitFor(() => expect(lastQuery().get('deleted')).toBe('true'));
 });
+
+function lastQuery(): URLSearchParams {
+  return new URLSearchParams(server.asked.findLast(({ path }) => path === '/api/runs')?.search);
+}

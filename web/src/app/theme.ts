@@ -53,6 +53,9 @@ export const theme = createTheme({
     Button: { defaultProps: { size: 'sm' } },
     TextInput: { defaultProps: { size: 'sm' } },
     Select: { defaultProps: { size: 'sm', allowDeselect: false } },
+    // What is opened stays until it is closed, also when the page scrolls under it.
+    Menu: { defaultProps: { hideDetached: false } },
+    Popover: { defaultProps: { hideDetached: false } },
     Tooltip: { defaultProps: { withArrow: true, fz: 12 } },
   },
 });

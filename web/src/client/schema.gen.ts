@@ -84,6 +84,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/queue": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Queue
+         * @description List the first of the runs that have not ended, in the order in which they will start.
+         */
+        get: operations["get_queue"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/runs": {
         parameters: {
             query?: never;
@@ -93,10 +113,50 @@ export interface paths {
         };
         /**
          * List Runs
-         * @description List runs, newest first, one page at a time.
+         * @description List runs, one page at a time; the newest come first unless another order is asked for.
          */
         get: operations["list_runs"];
         put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/runs/actions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Act On Runs
+         * @description Do something to runs; one that does not allow it says why, and keeps no other from it.
+         */
+        post: operations["act_on_runs"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/runs/priority": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Set Runs Priority
+         * @description Give runs a priority: all of them or, if one does not exist, none.
+         */
+        put: operations["set_runs_priority"];
         post?: never;
         delete?: never;
         options?: never;
@@ -124,20 +184,20 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/runs/{run_id}/cancel": {
+    "/api/runs/{run_id}/attempts": {
         parameters: {
             query?: never;
             header?: never;
             path?: never;
             cookie?: never;
         };
-        get?: never;
-        put?: never;
         /**
-         * Cancel Run
-         * @description End a run for good: at once if it waits, within seconds if it trains.
+         * List Run Attempts
+         * @description Return a run's attempts, oldest first.
          */
-        post: operations["cancel_run"];
+        get: operations["list_run_attempts"];
+        put?: never;
+        post?: never;
         delete?: never;
         options?: never;
         head?: never;
@@ -244,6 +304,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/runs/{run_id}/move": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Move Run
+         * @description Put a waiting run before another one, or at the end of the queue.
+         */
+        post: operations["move_run"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/tasks/{task}/picture": {
         parameters: {
             query?: never;
@@ -317,10 +397,30 @@ export interface paths {
         };
         /**
          * List Workers
-         * @description List the workers known to the store.
+         * @description List the workers known to the store, longest serving first.
          */
         get: operations["list_workers"];
         put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/workers/{worker_id}/draining": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Set Worker Draining
+         * @description Let a worker keep what it has and take no further run, or let it take runs again.
+         */
+        put: operations["set_worker_draining"];
         post?: never;
         delete?: never;
         options?: never;
@@ -353,6 +453,77 @@ export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
         /**
+         * Action
+         * @description What a person can ask of a run.
+         * @enum {string}
+         */
+        Action: "cancel" | "pause" | "resume" | "retry" | "release" | "delete" | "restore";
+        /**
+         * ActionResult
+         * @description What became of the wish for one run.
+         */
+        ActionResult: {
+            /**
+             * Done
+             * @description Whether it was done; if not, nothing was changed.
+             */
+            done: boolean;
+            /**
+             * Message
+             * @description What follows, or why it was not done, in one sentence.
+             */
+            message: string;
+            /** Run Id */
+            run_id: string;
+        };
+        /**
+         * ActionResults
+         * @description What became of the wish, run by run, in the order asked for.
+         */
+        ActionResults: {
+            /** Results */
+            results: components["schemas"]["ActionResult"][];
+        };
+        /**
+         * Attempt
+         * @description One claim of a run by a worker.
+         */
+        Attempt: {
+            /** Attempt */
+            attempt: number;
+            /** Ended At */
+            ended_at: string | null;
+            /**
+             * First Cycle
+             * @description First cycle that it logged; it replaces earlier attempts from there.
+             */
+            first_cycle: number | null;
+            /** Host */
+            host: string | null;
+            /**
+             * Outcome
+             * @description What ended it; null while it runs.
+             */
+            outcome: string | null;
+            /** Reason */
+            reason: string | null;
+            /**
+             * Started At
+             * Format: date-time
+             */
+            started_at: string;
+            /** Worker Id */
+            worker_id: string;
+        };
+        /**
+         * Attempts
+         * @description The attempts of a run, oldest first.
+         */
+        Attempts: {
+            /** Attempts */
+            attempts: components["schemas"]["Attempt"][];
+        };
+        /**
          * Choices
          * @description All that a launch can choose from.
          */
@@ -372,6 +543,14 @@ export interface components {
             presets: components["schemas"]["PresetSummary"][];
             /** Tasks */
             tasks: components["schemas"]["Task"][];
+        };
+        /**
+         * Draining
+         * @description Whether a worker shall take no further run.
+         */
+        Draining: {
+            /** Draining */
+            draining: boolean;
         };
         /**
          * Health
@@ -498,6 +677,17 @@ export interface components {
             wall_seconds: number[];
         };
         /**
+         * Move
+         * @description A new place for a run that waits.
+         */
+        Move: {
+            /**
+             * Before
+             * @description The waiting run that it shall start before; null for the end.
+             */
+            before: string | null;
+        };
+        /**
          * PlannedRun
          * @description One run that a launch would queue, or an existing one that it would share.
          */
@@ -532,6 +722,16 @@ export interface components {
             name: string;
             /** Summary */
             summary: string;
+        };
+        /**
+         * PriorityChange
+         * @description A new priority for runs: higher ones start first, 0 is usual.
+         */
+        PriorityChange: {
+            /** Priority */
+            priority: number;
+            /** Run Ids */
+            run_ids: string[];
         };
         /**
          * Problem
@@ -592,13 +792,65 @@ export interface components {
             updates_per_s: number | null;
         };
         /**
+         * Queue
+         * @description The first of the runs that have not ended, in the order in which they will start.
+         */
+        Queue: {
+            /** Entries */
+            entries: components["schemas"]["QueueEntry"][];
+            /**
+             * Total
+             * @description Runs that have not ended, shown or not.
+             */
+            total: number;
+        };
+        /**
+         * QueueEntry
+         * @description When a run that has not ended will start, and what it waits for.
+         */
+        QueueEntry: {
+            /**
+             * Ends At
+             * @description When it is expected to end; null if nobody can say.
+             */
+            ends_at: string | null;
+            /**
+             * Position
+             * @description Place among the runs that wait for a worker, from 1; null for others.
+             */
+            position: number | null;
+            run: components["schemas"]["RunSummary"];
+            /**
+             * Starts At
+             * @description When it started or is expected to; null if nobody can say.
+             */
+            starts_at: string | null;
+            /**
+             * Waits For
+             * @description What it waits for and why, or what it does, in one sentence.
+             */
+            waits_for: string;
+        };
+        /**
+         * RunActions
+         * @description A wish for one or more runs.
+         */
+        RunActions: {
+            action: components["schemas"]["Action"];
+            /** Run Ids */
+            run_ids: string[];
+        };
+        /**
          * RunDetail
          * @description Everything about one run but its curves and logs.
          */
         RunDetail: {
             /** Attempt */
             attempt: number;
-            /** Cancel Requested */
+            /**
+             * Cancel Requested
+             * @description It will end; its worker has not ended it yet.
+             */
             cancel_requested: boolean;
             /** Config */
             config: {
@@ -611,8 +863,18 @@ export interface components {
              * Format: date-time
              */
             created_at: string;
+            /**
+             * Deleted At
+             * @description When a person hid it; it can be restored.
+             */
+            deleted_at: string | null;
             /** Ended At */
             ended_at: string | null;
+            /**
+             * Gate Waived
+             * @description A person has let it start below its gate.
+             */
+            gate_waived: boolean;
             /**
              * Has Policy
              * @description Whether there is a policy that can be watched in 3D.
@@ -625,6 +887,11 @@ export interface components {
             has_recording: boolean;
             /** Id */
             id: string;
+            /**
+             * Is Below Gate
+             * @description Only its gate holds it back, so that it can be released.
+             */
+            is_below_gate: boolean;
             /** Locomotion Run Id */
             locomotion_run_id: string | null;
             /** Method */
@@ -635,12 +902,22 @@ export interface components {
              */
             needs: string[];
             /**
+             * Pause Requested
+             * @description It will pause; its worker has not paused it yet.
+             */
+            pause_requested: boolean;
+            /**
              * Phase
              * @enum {string}
              */
             phase: "locomotion" | "manipulation";
             /** Preset */
             preset: string;
+            /**
+             * Priority
+             * @description Runs of a higher one start first.
+             */
+            priority: number;
             progress: components["schemas"]["Progress"] | null;
             /**
              * Reason
@@ -712,7 +989,7 @@ export interface components {
         };
         /**
          * RunPage
-         * @description One page of runs, newest first.
+         * @description One page of runs, in the order asked for.
          */
         RunPage: {
             /** Next Cursor */
@@ -735,17 +1012,35 @@ export interface components {
         RunSummary: {
             /** Attempt */
             attempt: number;
-            /** Cancel Requested */
+            /**
+             * Cancel Requested
+             * @description It will end; its worker has not ended it yet.
+             */
             cancel_requested: boolean;
             /**
              * Created At
              * Format: date-time
              */
             created_at: string;
+            /**
+             * Deleted At
+             * @description When a person hid it; it can be restored.
+             */
+            deleted_at: string | null;
             /** Ended At */
             ended_at: string | null;
+            /**
+             * Gate Waived
+             * @description A person has let it start below its gate.
+             */
+            gate_waived: boolean;
             /** Id */
             id: string;
+            /**
+             * Is Below Gate
+             * @description Only its gate holds it back, so that it can be released.
+             */
+            is_below_gate: boolean;
             /** Method */
             method: string;
             /**
@@ -754,12 +1049,22 @@ export interface components {
              */
             needs: string[];
             /**
+             * Pause Requested
+             * @description It will pause; its worker has not paused it yet.
+             */
+            pause_requested: boolean;
+            /**
              * Phase
              * @enum {string}
              */
             phase: "locomotion" | "manipulation";
             /** Preset */
             preset: string;
+            /**
+             * Priority
+             * @description Runs of a higher one start first.
+             */
+            priority: number;
             progress: components["schemas"]["Progress"] | null;
             /**
              * Reason
@@ -835,13 +1140,25 @@ export interface components {
         };
         /**
          * Worker
-         * @description One worker process and what it does.
+         * @description One worker process, what it has to train with, and what it does.
          */
         Worker: {
             /** Alive */
             alive: boolean;
-            /** Busy */
-            busy: number;
+            /**
+             * Cores
+             * @description Cores that it may use; 0 if nobody knows.
+             */
+            cores: number;
+            /**
+             * Draining
+             * @description It takes no further run and keeps those that it has.
+             */
+            draining: boolean;
+            /** Executor */
+            executor: string;
+            /** Gpu */
+            gpu: string | null;
             /** Host */
             host: string;
             /** Id */
@@ -851,10 +1168,38 @@ export interface components {
              * Format: date-time
              */
             last_heartbeat_at: string;
+            /**
+             * Memory Total
+             * @description Memory of its machine, in bytes; 0 if nobody knows.
+             */
+            memory_total: number;
+            /** Memory Used */
+            memory_used: number;
             /** Pid */
             pid: number;
+            /** Running */
+            running: components["schemas"]["WorkerRun"][];
             /** Slots */
             slots: number;
+        };
+        /**
+         * WorkerRun
+         * @description A run that a worker trains now.
+         */
+        WorkerRun: {
+            /** Id */
+            id: string;
+            /** Method */
+            method: string;
+            /**
+             * Phase
+             * @enum {string}
+             */
+            phase: "locomotion" | "manipulation";
+            /** Seed */
+            seed: number;
+            /** Task */
+            task: string;
         };
         /**
          * Workers
@@ -871,7 +1216,13 @@ export interface components {
     headers: never;
     pathItems: never;
 }
+export type Action = components['schemas']['Action'];
+export type ActionResult = components['schemas']['ActionResult'];
+export type ActionResults = components['schemas']['ActionResults'];
+export type Attempt = components['schemas']['Attempt'];
+export type Attempts = components['schemas']['Attempts'];
 export type Choices = components['schemas']['Choices'];
+export type Draining = components['schemas']['Draining'];
 export type Health = components['schemas']['Health'];
 export type Launch = components['schemas']['Launch'];
 export type LaunchPlan = components['schemas']['LaunchPlan'];
@@ -879,11 +1230,16 @@ export type LaunchResult = components['schemas']['LaunchResult'];
 export type LogTail = components['schemas']['LogTail'];
 export type Method = components['schemas']['Method'];
 export type MetricBatch = components['schemas']['MetricBatch'];
+export type Move = components['schemas']['Move'];
 export type PlannedRun = components['schemas']['PlannedRun'];
 export type PresetSummary = components['schemas']['PresetSummary'];
+export type PriorityChange = components['schemas']['PriorityChange'];
 export type Problem = components['schemas']['Problem'];
 export type Problems = components['schemas']['Problems'];
 export type Progress = components['schemas']['Progress'];
+export type Queue = components['schemas']['Queue'];
+export type QueueEntry = components['schemas']['QueueEntry'];
+export type RunActions = components['schemas']['RunActions'];
 export type RunDetail = components['schemas']['RunDetail'];
 export type RunEvent = components['schemas']['RunEvent'];
 export type RunEvents = components['schemas']['RunEvents'];
@@ -896,6 +1252,7 @@ export type Task = components['schemas']['Task'];
 export type ViewerRequest = components['schemas']['ViewerRequest'];
 export type ViewerSession = components['schemas']['ViewerSession'];
 export type Worker = components['schemas']['Worker'];
+export type WorkerRun = components['schemas']['WorkerRun'];
 export type Workers = components['schemas']['Workers'];
 export type $defs = Record<string, never>;
 export interface operations {
@@ -1129,6 +1486,55 @@ export interface operations {
             };
         };
     };
+    get_queue: {
+        parameters: {
+            query?: {
+                limit?: number;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Queue"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
     list_runs: {
         parameters: {
             query?: {
@@ -1138,6 +1544,11 @@ export interface operations {
                 phase?: ("locomotion" | "manipulation") | null;
                 /** @description Words that id, task, method, phase, preset or state hold. */
                 search?: string | null;
+                /** @description The runs that a person hid, instead of all others. */
+                deleted?: boolean;
+                /** @description `success` is that of the newest test. */
+                sort?: "launched" | "task" | "state" | "success";
+                descending?: boolean;
                 limit?: number;
                 /** @description `next_cursor` of the page before. */
                 cursor?: string | null;
@@ -1155,6 +1566,151 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["RunPage"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    act_on_runs: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["RunActions"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ActionResults"];
+                };
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    set_runs_priority: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PriorityChange"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
                 };
             };
             /** @description A field or setting cannot work. */
@@ -1244,7 +1800,7 @@ export interface operations {
             };
         };
     };
-    cancel_run: {
+    list_run_attempts: {
         parameters: {
             query?: never;
             header?: never;
@@ -1261,29 +1817,11 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["RunDetail"];
-                };
-            };
-            /** @description Not allowed. */
-            403: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["Problems"];
+                    "application/json": components["schemas"]["Attempts"];
                 };
             };
             /** @description It does not exist. */
             404: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["Problems"];
-                };
-            };
-            /** @description Its state does not allow this. */
-            409: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -1570,6 +2108,8 @@ export interface operations {
             query?: {
                 /** @description `cursor` of the answer before. */
                 after?: number;
+                /** @description Whether to add the points that a later attempt replaced. */
+                superseded?: boolean;
             };
             header?: never;
             path: {
@@ -1590,6 +2130,93 @@ export interface operations {
             };
             /** @description It does not exist. */
             404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    move_run: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Move"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -1910,6 +2537,84 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Workers"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    set_worker_draining: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                worker_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Draining"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
                 };
             };
             /** @description An error of the service itself. */

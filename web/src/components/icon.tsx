@@ -3,6 +3,8 @@
 const SHAPES = {
   runs: 'M4 6h16M4 12h16M4 18h10',
   launch: 'M12 5v14M5 12h14',
+  minus: 'M5 12h14',
+  queue: 'M9 6h11M9 12h11M9 18h11M4.5 4.5v3M3.5 6l1-1.5 1 1.5M4.5 10.5h.01M4.5 13.5h.01M4.5 18h.01',
   workers: 'M5 5h14v6H5zM5 13h14v6H5zM8.5 8h.01M8.5 16h.01',
   collapse: 'M11 7l-5 5 5 5M18 7l-5 5 5 5',
   expand: 'M6 7l5 5-5 5M13 7l5 5-5 5',
@@ -23,6 +25,13 @@ const SHAPES = {
   search: 'M11 5a6 6 0 1 0 0 12 6 6 0 0 0 0-12zM15.5 15.5L20 20',
   copy: 'M9 9h11v11H9zM5 15H4V4h11v1',
   close: 'M6 6l12 12M18 6L6 18',
+  menu: 'M6 12h.01M12 12h.01M18 12h.01',
+  retry: 'M19 12a7 7 0 1 1-2.1-5M19 4v4h-4',
+  trash: 'M4.5 7h15M9 7V4.5h6V7M6.5 7l1 12.5h9l1-12.5',
+  up: 'M6 14l6-6 6 6',
+  down: 'M6 10l6 6 6-6',
+  grip: 'M9 6h.01M15 6h.01M9 12h.01M15 12h.01M9 18h.01M15 18h.01',
+  release: 'M7 11V8a5 5 0 0 1 9.6-2M5 11h14v9H5z',
   arrow: 'M5 12h14M13 6l6 6-6 6',
 } as const;
 

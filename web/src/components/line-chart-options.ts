@@ -1,5 +1,6 @@
 /** How a chart is drawn and what the mouse does in it. */
-import uPlot from 'uplot';
+import type uPlot from 'uplot';
+import { drawGhosts, drawMarks, type Ghost, type Mark, withGhosts } from '@/components/line-chart-marks';
 import { lineStyle, type Scheme } from '@/lib/palette';
 
 /** What decides how a chart looks, beside its points. */
@@ -13,7 +14,9 @@ export interface ChartLook {
   readonly formatX: (value: number) => string;
   readonly formatY: (value: number) => string;
   /** Places on the x axis where a later attempt began. */
-  readonly marks: readonly { readonly x: number; readonly label: string }[];
+  readonly marks: readonly Mark[];
+  /** Stretches of the lines that a later attempt replaced. */
+  readonly ghosts: readonly Ghost[];
 }
 
 interface Current extends ChartLook {
@@ -50,7 +53,10 @@ export function chartOptions(now: () => Current, width: number): uPlot.Options {
     legend: { show: false },
     scales: {
       x: { time: false, range: () => [...now().range] as [number, number] },
-      y: { range: (_plot, low, high) => (isShare ? [-0.02, 1.02] : padded(low, high)) },
+      y: {
+        range: (_plot, low, high) =>
+          isShare ? [-0.02, 1.02] : padded(...withGhosts(low, high, now().ghosts, now().range)),
+      },
     },
     axes: [
       {
@@ -82,6 +88,7 @@ export function chartOptions(now: () => Current, width: number): uPlot.Options {
     hooks: {
       setCursor: [(plot) => now().onPoint(plot.cursor.idx ?? null)],
       setSelect: [(plot) => zoomToSelection(plot, now().onZoom)],
+      drawAxes: [(plot) => drawGhosts(plot, now().ghosts, (line) => lineStyle(line, now().scheme).color)],
       draw: [(plot) => drawMarks(plot, now().marks, ink.mark)],
     },
   };
@@ -128,27 +135,4 @@ function zoomToSelection(plot: uPlot, onZoom: Current['onZoom']): void {
   if (width < LEAST_DRAG) return;
   onZoom([plot.posToVal(left, 'x'), plot.posToVal(left + width, 'x')]);
   plot.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
-}
-
-function drawMarks(plot: uPlot, marks: ChartLook['marks'], color: string): void {
-  const { ctx, bbox } = plot;
-  const ratio = uPlot.pxRatio;
-  ctx.save();
-  ctx.strokeStyle = color;
-  ctx.fillStyle = color;
-  ctx.lineWidth = ratio;
-  ctx.font = `${10 * ratio}px system-ui, sans-serif`;
-  ctx.textAlign = 'left';
-  ctx.textBaseline = 'alphabetic';
-  ctx.setLineDash([3 * ratio, 3 * ratio]);
-  for (const { x, label } of marks) {
-    const left = plot.valToPos(x, 'x', true);
-    if (left < bbox.left || left > bbox.left + bbox.width) continue;
-    ctx.beginPath();
-    ctx.moveTo(left, bbox.top);
-    ctx.lineTo(left, bbox.top + bbox.height);
-    ctx.stroke();
-    ctx.fillText(label, left + 4 * ratio, bbox.top + 10 * ratio);
-  }
-  ctx.restore();
 }

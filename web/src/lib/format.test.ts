@@ -10,13 +10,23 @@ import {
   formatShare,
   formatShort,
   formatSize,
+  formatUntil,
   formatValue,
   NOTHING,
   secondsBetween,
 } from '@/lib/format';
 
 test('what is missing is a dash everywhere', () => {
-  for (const format of [formatCount, formatShort, formatValue, formatShare, formatRate, formatDuration, formatAgo]) {
+  for (const format of [
+    formatCount,
+    formatShort,
+    formatValue,
+    formatShare,
+    formatRate,
+    formatDuration,
+    formatAgo,
+    formatUntil,
+  ]) {
     expect(format(null)).toBe(NOTHING);
     expect(format(undefined)).toBe(NOTHING);
     expect(format(Number.NaN)).toBe(NOTHING);
@@ -74,6 +84,14 @@ test.each([
   [200_000, '2 d ago'],
 ])('%d seconds back is %s', (seconds, text) => {
   expect(formatAgo(seconds)).toBe(text);
+});
+
+test.each([
+  [-20, 'now'],
+  [12, 'in 12s'],
+  [7500, 'in 2h 5m'],
+])('%d seconds ahead is %s', (seconds, text) => {
+  expect(formatUntil(seconds)).toBe(text);
 });
 
 test('a moment is local date and time', () => {

@@ -71,6 +71,12 @@ export function formatAgo(seconds: Maybe): string {
   return `${Math.floor(whole / DAY)} d ago`;
 }
 
+/** How long until a moment: `now`, `in 12s`, `in 2h 5m`. */
+export function formatUntil(seconds: Maybe): string {
+  if (!isNumber(seconds)) return NOTHING;
+  return seconds < 1 ? 'now' : `in ${formatDuration(seconds)}`;
+}
+
 /** A moment as local date and time, to the second: `2026-11-22 17:04:09`. */
 export function formatMoment(iso: string | null | undefined): string {
   if (!iso) return NOTHING;

@@ -126,6 +126,21 @@ export function overridesOf(
   return { values, changed, problems };
 }
 
+/** A setting whose value is not the usual one. */
+export interface Difference {
+  readonly setting: Setting;
+  readonly value: SettingValue;
+  readonly usual: SettingValue;
+}
+
+/** The settings in which a config differs from the defaults. */
+export function differences(groups: readonly SettingGroup[], config: Config, defaults: Config): Difference[] {
+  return groups
+    .flatMap((group) => group.settings)
+    .map((setting) => ({ setting, value: valueAt(config, setting.path), usual: valueAt(defaults, setting.path) }))
+    .filter(({ value, usual }) => !isSame(value, usual));
+}
+
 /** Whether two setting values are equal, lists by their parts. */
 export function isSame(one: unknown, other: unknown): boolean {
   return JSON.stringify(one) === JSON.stringify(other);

@@ -40,6 +40,7 @@ export class FakeServer {
     this.asked.push({ method: request.method, path: url.pathname, search: url.search, body });
     const route = this.#routes.get(`${request.method} ${url.pathname}`);
     const answer = route ? await route({ url, body }) : problem(404, null, `The fake has no ${url.pathname}.`);
+    if (answer.status === 204) return new Response(null, { status: 204 });
     return Response.json(answer.body, { status: answer.status ?? 200 });
   }
 }
@@ -48,3 +49,6 @@ export class FakeServer {
 export function problem(status: number, field: string | null, message: string): Answer {
   return { status, body: { problems: [{ field, message }] } };
 }
+
+/** Nothing to say: it was done. */
+export const DONE: Answer = { status: 204, body: null };

@@ -109,6 +109,11 @@ export const RUN: RunSummary = {
   started_at: '2026-01-01T10:00:05Z',
   ended_at: null,
   cancel_requested: false,
+  pause_requested: false,
+  is_below_gate: false,
+  gate_waived: false,
+  priority: 0,
+  deleted_at: null,
 };
 
 export const DETAIL: RunDetail = {

@@ -5,10 +5,12 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Sequence
+from typing import Literal
 
 import tyro
 
 from sldr_core.errors import InvalidConfig
+from worker.executors.ray_needs import CORES_OF_A_RUN
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -16,12 +18,25 @@ def main(arguments: Sequence[str]) -> int:
     return tyro.cli(work, prog="sldr worker", args=list(arguments))
 
 
-def work(slots: int = 1) -> int:
-    """Train queued runs on this machine until told to end.
+def work(
+    slots: int | None = None,
+    executor: Literal["local", "ray"] = "local",
+    address: str | None = None,
+    cores: int = CORES_OF_A_RUN,
+) -> int:
+    """Train queued runs, on this machine or on a cluster, until told to end.
 
     Args:
-        slots: Runs trained at the same time.
+        slots: Runs trained at the same time (default: 1; on a cluster: as many as fit when the worker starts).
+        executor: Where to train: in processes of this machine, or on the nodes of a Ray cluster.
+        address: The cluster's head as host:port; `sldr node --head` prints it.
+        cores: Cores of a run on a cluster that names no number of threads.
     """
-    if slots < 1:
+    if slots is not None and slots < 1:
         raise InvalidConfig({"slots": f"a worker needs at least 1, got {slots}"})
-    os.execv(sys.executable, [sys.executable, "-m", "worker", "--slots", str(slots)])
+    if executor == "local" and address is not None:
+        raise InvalidConfig({"address": "only a cluster has one; add --executor ray"})
+    options = ["--executor", executor, "--cores", str(cores)]
+    options += [] if slots is None else ["--slots", str(slots)]
+    options += [] if address is None else ["--address", address]
+    os.execv(sys.executable, [sys.executable, "-m", "worker", *options])

@@ -1,4 +1,5 @@
 /** Which charts a run has, and the points that each draws. */
+import type { MetricBatch } from '@/client/schema.gen';
 import { formatDuration, formatName, formatShare, formatShort, formatValue } from '@/lib/format';
 import type { Metrics } from '@/lib/metrics';
 import { smooth } from '@/lib/smoothing';
@@ -70,7 +71,7 @@ function rank(section: string): number {
 }
 
 /** Where each point lies on the x axis. */
-export function xColumn(metrics: Metrics, axis: Axis, cyclesPerEpoch: number): readonly number[] {
+export function xColumn(metrics: MetricBatch, axis: Axis, cyclesPerEpoch: number): readonly number[] {
   // Epochs are whole numbers; between them the cycles tell the points apart.
   return axis === 'epoch' ? metrics.step.map((step) => step / cyclesPerEpoch) : metrics[axis];
 }

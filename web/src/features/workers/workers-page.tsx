@@ -1,21 +1,21 @@
 /** The processes that train, and what they do. */
 import { useQuery } from '@tanstack/react-query';
+import type { Worker } from '@/client/schema.gen';
 import { Freshness } from '@/components/freshness';
 import { SentencePanel } from '@/components/sentence-panel';
 import { sentence } from '@/lib/api';
-import { formatAgo, secondsBetween } from '@/lib/format';
 import { workersQuery } from '@/lib/queries';
-import { useNow } from '@/lib/use-now';
+import { WorkerCard } from './components/worker-card';
 import classes from './workers-page.module.css';
 
 export function WorkersPage() {
   const { data, error, dataUpdatedAt } = useQuery(workersQuery);
-  const now = useNow();
   return (
     <>
       <title>Workers · SLDR</title>
       <div className="page-head">
         <h1>Workers</h1>
+        {data && data.workers.length > 0 && <span className="faint number">{summary(data.workers)}</span>}
         <Freshness updatedAt={dataUpdatedAt} />
       </div>
       {error && !data && (
@@ -24,42 +24,25 @@ export function WorkersPage() {
         </SentencePanel>
       )}
       {data?.workers.length === 0 && (
-        <SentencePanel title="No worker has ever been here">
-          Start one with <code>sldr worker</code>; <code>sldr serve</code> starts one by itself.
+        <SentencePanel title="No worker has been here lately">
+          Queued runs wait for one. Start it with <code>sldr worker</code>; <code>sldr serve</code> starts one by
+          itself.
         </SentencePanel>
       )}
       {data && data.workers.length > 0 && (
-        <div className={`card ${classes.frame}`}>
-          <table className={classes.table} aria-label="Workers">
-            <thead>
-              <tr>
-                <th scope="col">Worker</th>
-                <th scope="col">Host</th>
-                <th scope="col">Process</th>
-                <th scope="col">Busy slots</th>
-                <th scope="col">Last sign of life</th>
-              </tr>
-            </thead>
-            <tbody>
-              {data.workers.map((worker) => (
-                <tr key={worker.id}>
-                  <th scope="row" className="mono">
-                    {worker.id}
-                  </th>
-                  <td>{worker.host}</td>
-                  <td className="number">{worker.pid}</td>
-                  <td className="number">
-                    {worker.busy} of {worker.slots}
-                  </td>
-                  <td data-state={worker.alive ? 'succeeded' : 'failed'} className={classes.life}>
-                    {worker.alive ? 'alive' : 'gone'}, {formatAgo(secondsBetween(worker.last_heartbeat_at, now))}
-                  </td>
-                </tr>
-              ))}
-            </tbody>
-          </table>
-        </div>
+        <ul className={classes.workers} aria-label="Workers">
+          {data.workers.map((worker) => (
+            <WorkerCard key={worker.id} worker={worker} />
+          ))}
+        </ul>
       )}
     </>
   );
+}
+
+function summary(workers: readonly Worker[]): string {
+  const alive = workers.filter((worker) => worker.alive);
+  const slots = alive.reduce((sum, worker) => sum + worker.slots, 0);
+  const busy = alive.reduce((sum, worker) => sum + worker.running.length, 0);
+  return `${alive.length} alive · ${busy} of ${slots} slots busy`;
 }

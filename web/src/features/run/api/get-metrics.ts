@@ -1,4 +1,4 @@
-/** The curves of a run; each poll asks only for what came since the last. */
+/** The curves of a run, also what later attempts replaced; each poll asks only for what came since the last. */
 import { type QueryClient, queryOptions } from '@tanstack/react-query';
 import { client, unwrap } from '@/lib/api';
 import { type Metrics, mergeMetrics, NO_METRICS } from '@/lib/metrics';
@@ -17,7 +17,7 @@ export function metricsQuery(queries: QueryClient, runId: string, isLive: boolea
     queryFn: async ({ signal }) => {
       let known = queries.getQueryData<Metrics>(queryKey) ?? NO_METRICS;
       for (;;) {
-        const params = { path: { run_id: runId }, query: { after: known.cursor } };
+        const params = { path: { run_id: runId }, query: { after: known.cursor, superseded: true } };
         const batch = await unwrap(client.GET('/api/runs/{run_id}/metrics', { params, signal }));
         known = mergeMetrics(known, batch);
         if (batch.step.length < FULL_ANSWER) return known;

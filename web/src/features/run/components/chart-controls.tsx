@@ -1,5 +1,6 @@
 /** What holds for all charts: the x axis, the smoothing, the zoom. */
-import { Button, SegmentedControl, Slider } from '@mantine/core';
+import { ActionIcon, Button, SegmentedControl, Slider } from '@mantine/core';
+import { Icon } from '@/components/icon';
 import { AXIS_NAMES } from '../charts';
 import { AXES, type Axis, MOST_SMOOTHING } from '../search';
 import classes from './charts.module.css';
@@ -10,10 +11,15 @@ interface Props {
   isZoomed: boolean;
   onAxis: (axis: Axis) => void;
   onWeight: (weight: number) => void;
+  /** Called with what the shown width is to be multiplied by. */
+  onZoom: (factor: number) => void;
   onReset: () => void;
 }
 
-export function ChartControls({ axis, weight, isZoomed, onAxis, onWeight, onReset }: Props) {
+/** How much a click on a button zooms. */
+const ZOOM = 0.5;
+
+export function ChartControls({ axis, weight, isZoomed, onAxis, onWeight, onZoom, onReset }: Props) {
   return (
     <div className={classes.controls}>
       <SegmentedControl
@@ -38,13 +44,29 @@ export function ChartControls({ axis, weight, isZoomed, onAxis, onWeight, onRese
         />
         <span className="number faint">{weight.toFixed(2)}</span>
       </div>
-      {isZoomed ? (
-        <Button variant="light" size="compact-xs" onClick={onReset}>
-          Show all and follow
-        </Button>
-      ) : (
-        <span className={`faint ${classes.hint}`}>Drag in a chart to zoom, double-click to reset.</span>
-      )}
+      <div className={classes.zoom}>
+        <ActionIcon variant="default" size="sm" aria-label="Zoom in" onClick={() => onZoom(ZOOM)}>
+          <Icon name="launch" size={13} />
+        </ActionIcon>
+        <ActionIcon
+          variant="default"
+          size="sm"
+          aria-label="Zoom out"
+          disabled={!isZoomed}
+          onClick={() => onZoom(1 / ZOOM)}
+        >
+          <Icon name="minus" size={13} />
+        </ActionIcon>
+        {isZoomed ? (
+          <Button variant="light" size="compact-xs" onClick={onReset}>
+            Show all and follow
+          </Button>
+        ) : (
+          <span className={`faint ${classes.hint}`}>
+            Drag in a chart, or press + and − in it, to zoom; a double click or 0 shows all.
+          </span>
+        )}
+      </div>
     </div>
   );
 }

@@ -5,7 +5,15 @@ import { CopyButton } from '@/components/copy-button';
 import { InlineCode } from '@/components/inline-code';
 import { formatPlural } from '@/lib/format';
 import { choicesQuery, defaultsQuery } from '@/lib/queries';
-import { type Config, isSame, readSettingGroups, type SettingGroup, settingText, valueAt } from '@/lib/settings';
+import {
+  type Config,
+  differences,
+  isSame,
+  readSettingGroups,
+  type SettingGroup,
+  settingText,
+  valueAt,
+} from '@/lib/settings';
 import classes from './run.module.css';
 
 export function ConfigTab({ run }: { run: RunDetail }) {
@@ -13,9 +21,7 @@ export function ConfigTab({ run }: { run: RunDetail }) {
   const { data: choices } = useQuery(choicesQuery);
   const { data: defaults } = useQuery(defaultsQuery({ task, phase, method, preset }));
   const groups = choices === undefined ? [] : readSettingGroups(choices.config_schema);
-  const differing = groups
-    .flatMap((group) => group.settings)
-    .filter(({ path }) => defaults !== undefined && !isSame(valueAt(run.config, path), valueAt(defaults, path))).length;
+  const differing = defaults === undefined ? 0 : differences(groups, run.config, defaults).length;
   return (
     <>
       <div className={classes.tabHead}>

@@ -1,10 +1,12 @@
-/** What happened to the run, oldest first. */
+/** What happened to the run: its attempts, and every change, oldest first. */
 import { useQuery } from '@tanstack/react-query';
+import type { RunEvent } from '@/client/schema.gen';
 import { SentencePanel } from '@/components/sentence-panel';
 import { StateBadge } from '@/components/state-badge';
 import { sentence } from '@/lib/api';
 import { formatMoment, formatName, NOTHING } from '@/lib/format';
 import { eventsQuery } from '../api/run-records';
+import { Attempts } from './attempts-table';
 import classes from './run.module.css';
 
 export function HistoryTab({ runId }: { runId: string }) {
@@ -17,8 +19,20 @@ export function HistoryTab({ runId }: { runId: string }) {
     );
   }
   return (
+    <>
+      <Attempts runId={runId} />
+      <section className={classes.part}>
+        <h2>Events</h2>
+        <Events events={data?.events ?? []} />
+      </section>
+    </>
+  );
+}
+
+function Events({ events }: { events: readonly RunEvent[] }) {
+  return (
     <div className={`card ${classes.tableFrame}`}>
-      <table className={classes.table} aria-label="History">
+      <table className={classes.table} aria-label="Events">
         <thead>
           <tr>
             <th scope="col">When</th>
@@ -29,7 +43,7 @@ export function HistoryTab({ runId }: { runId: string }) {
           </tr>
         </thead>
         <tbody>
-          {data?.events.map(({ at, event, state, attempt, detail }) => (
+          {events.map(({ at, event, state, attempt, detail }) => (
             <tr key={`${at} ${event}`}>
               <td className="number faint">
                 <time dateTime={at}>{formatMoment(at)}</time>

@@ -2,10 +2,14 @@
 import { ActionIcon, useComputedColorScheme } from '@mantine/core';
 import { useDisclosure } from '@mantine/hooks';
 import { useCallback, useMemo, useState } from 'react';
+import type { MetricBatch } from '@/client/schema.gen';
 import { Icon } from '@/components/icon';
 import { LineChart } from '@/components/line-chart';
+import type { Mark } from '@/components/line-chart-marks';
 import { type Metrics, newestValue } from '@/lib/metrics';
 import { lineStyle, type Scheme } from '@/lib/palette';
+import type { Range } from '@/lib/zoom';
+import { chartGhosts } from '../attempt-marks';
 import { AXIS_NAMES, type ChartPoints, type ChartSpec, chartPoints, formatX, formatY, xSteps } from '../charts';
 import type { Axis } from '../search';
 import classes from './charts.module.css';
@@ -15,20 +19,25 @@ import { MetricTable } from './metric-table';
 export interface ChartView {
   readonly metrics: Metrics;
   readonly x: readonly number[];
+  /** Where the points of a stretch lie on the x axis. */
+  readonly placeOf: (part: MetricBatch) => readonly number[];
   readonly axis: Axis;
   /** How much the curves are smoothed. */
   readonly weight: number;
-  readonly marks: readonly { readonly x: number; readonly label: string }[];
-  readonly range: readonly [number, number];
-  readonly onZoom: (range: readonly [number, number] | null) => void;
+  readonly marks: readonly Mark[];
+  /** What is shown of the x axis, and all there is of it. */
+  readonly range: Range;
+  readonly whole: Range;
+  readonly onZoom: (range: Range | null) => void;
 }
 
 export function MetricChart({ chart, view, height }: { chart: ChartSpec; view: ChartView; height: number }) {
-  const { metrics, x, axis, weight, marks, range, onZoom } = view;
+  const { metrics, x, placeOf, axis, weight, marks, range, whole, onZoom } = view;
   const scheme: Scheme = useComputedColorScheme('light');
   const [point, setPoint] = useState<number | null>(null);
   const [isTable, { toggle }] = useDisclosure(false);
   const points = useMemo(() => chartPoints(metrics, x, chart, weight), [metrics, x, chart, weight]);
+  const ghosts = useMemo(() => chartGhosts(metrics, chart, placeOf), [metrics, chart, placeOf]);
   const lines = useMemo(
     () =>
       chart.series.map(({ label }, at) => ({ label, raw: points.raw[at] ?? [], smoothed: points.smoothed[at] ?? [] })),
@@ -36,8 +45,11 @@ export function MetricChart({ chart, view, height }: { chart: ChartSpec; view: C
   );
   const showX = useCallback((value: number) => formatX(axis, value), [axis]);
   const showY = useCallback((value: number) => formatY(chart, value).replace('.0\u202f', '\u202f'), [chart]);
-  const newest = chart.series.map(({ label }, at) => `${label} ${formatY(chart, newestValue(points.raw[at] ?? []))}`);
-  const until = points.x.at(-1);
+  const valuesAt = (end: number): string =>
+    chart.series
+      .map(({ label }, at) => `${label} ${formatY(chart, newestValue((points.raw[at] ?? []).slice(0, end + 1)))}`)
+      .join(', ');
+  const placeAt = (at: number): string => `${AXIS_NAMES[axis].toLowerCase()} ${formatX(axis, points.x[at] ?? 0)}`;
   const name = `${chart.title} over ${AXIS_NAMES[axis].toLowerCase()}`;
   return (
     <figure className={`card ${classes.chart}`} aria-label={chart.title}>
@@ -62,6 +74,7 @@ export function MetricChart({ chart, view, height }: { chart: ChartSpec; view: C
           x={points.x}
           lines={lines}
           range={range}
+          whole={whole}
           scheme={scheme}
           height={height}
           isShare={chart.isShare}
@@ -70,9 +83,11 @@ export function MetricChart({ chart, view, height }: { chart: ChartSpec; view: C
           formatX={showX}
           formatY={showY}
           marks={marks}
+          ghosts={ghosts}
           onPoint={setPoint}
           onZoom={onZoom}
-          description={`${name}; newest: ${newest.join(', ')}${until === undefined ? '' : ` at ${formatX(axis, until)}`}.`}
+          description={name}
+          describePoint={(at) => `${placeAt(at)}: ${valuesAt(at)}`}
         />
       )}
     </figure>

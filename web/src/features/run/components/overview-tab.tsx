@@ -1,20 +1,23 @@
-/** The run's curves, live. */
+/** What differs in this run, and its curves, live. */
 import { useLocalStorage } from '@mantine/hooks';
 import { useQuery, useQueryClient } from '@tanstack/react-query';
-import { useMemo, useState } from 'react';
-import type { RunDetail } from '@/client/schema.gen';
+import { useCallback, useMemo, useState } from 'react';
+import type { MetricBatch, RunDetail } from '@/client/schema.gen';
 import { SentencePanel } from '@/components/sentence-panel';
 import { sentence } from '@/lib/api';
 import { formatName } from '@/lib/format';
-import { attemptStarts, type Metrics } from '@/lib/metrics';
+import type { Metrics } from '@/lib/metrics';
 import { valueAt } from '@/lib/settings';
 import { hasEnded } from '@/lib/states';
+import { scaled } from '@/lib/zoom';
 import { metricsQuery } from '../api/get-metrics';
+import { attemptMarks } from '../attempt-marks';
 import { chartSections, successChart, xColumn } from '../charts';
 import type { RunSearch } from '../search';
 import { ChartControls } from './chart-controls';
 import classes from './charts.module.css';
 import { type ChartView, MetricChart } from './metric-chart';
+import { RunDifferences } from './run-differences';
 import { WaitingPanel } from './waiting-panel';
 
 interface Props {
@@ -23,7 +26,16 @@ interface Props {
   onShow: (changes: RunSearch) => void;
 }
 
-export function OverviewTab({ run, search, onShow }: Props) {
+export function OverviewTab(props: Props) {
+  return (
+    <>
+      <RunDifferences run={props.run} />
+      <Progress {...props} />
+    </>
+  );
+}
+
+function Progress({ run, search, onShow }: Props) {
   const queries = useQueryClient();
   const { data: metrics, error } = useQuery(metricsQuery(queries, run.id, !hasEnded(run.state)));
   if (metrics === undefined) {
@@ -42,15 +54,15 @@ function Curves({ run, metrics, search, onShow }: Props & { metrics: Metrics }) 
   const weight = search.smooth ?? 0;
   const [zoom, setZoom] = useState<readonly [number, number] | null>(null);
   const cyclesPerEpoch = Number(valueAt(run.config, 'loop.cycles_per_epoch')) || 1;
-  const x = useMemo(() => xColumn(metrics, axis, cyclesPerEpoch), [metrics, axis, cyclesPerEpoch]);
+  const placeOf = useCallback((part: MetricBatch) => xColumn(part, axis, cyclesPerEpoch), [axis, cyclesPerEpoch]);
+  const x = useMemo(() => placeOf(metrics), [metrics, placeOf]);
   const names = Object.keys(metrics.values).sort().join('\n');
   const success = useMemo(() => successChart(names.split('\n')), [names]);
   const sections = useMemo(() => chartSections(names.split('\n')), [names]);
-  const marks = useMemo(
-    () => attemptStarts(metrics).map((at) => ({ x: x[at] ?? 0, label: `attempt ${metrics.attempt[at]}` })),
-    [metrics, x],
-  );
-  const view: ChartView = { metrics, x, axis, weight, marks, range: zoom ?? [0, x.at(-1) || 1], onZoom: setZoom };
+  const marks = useMemo(() => attemptMarks(metrics, placeOf), [metrics, placeOf]);
+  const whole = [0, x.at(-1) || 1] as const;
+  const range = zoom ?? whole;
+  const view: ChartView = { metrics, x, placeOf, axis, weight, marks, range, whole, onZoom: setZoom };
   return (
     <>
       <ChartControls
@@ -62,6 +74,7 @@ function Curves({ run, metrics, search, onShow }: Props & { metrics: Metrics }) 
           onShow({ x: next === 'epoch' ? undefined : next });
         }}
         onWeight={(next) => onShow({ smooth: next === 0 ? undefined : next })}
+        onZoom={(factor) => setZoom(scaled(range, whole, (range[0] + range[1]) / 2, factor))}
         onReset={() => setZoom(null)}
       />
       {success.series.length > 0 && <MetricChart chart={success} view={view} height={250} />}

@@ -7,10 +7,11 @@ import { Freshness } from '@/components/freshness';
 import { Icon } from '@/components/icon';
 import { Reason } from '@/components/reason';
 import { StateBadge } from '@/components/state-badge';
-import { hasEnded } from '@/lib/states';
+import { formatMoment } from '@/lib/format';
+import { hasEnded, wishOf } from '@/lib/states';
 import { filesQuery } from '../api/run-records';
-import { CancelButton } from './cancel-button';
 import classes from './run.module.css';
+import { RunActions } from './run-actions';
 import { RunFigures } from './run-figures';
 
 export function RunHeader({ run, updatedAt }: { run: RunDetail; updatedAt: number }) {
@@ -18,7 +19,7 @@ export function RunHeader({ run, updatedAt }: { run: RunDetail; updatedAt: numbe
     <header className={classes.header}>
       <div className="page-head">
         <h1>{run.task}</h1>
-        <StateBadge state={run.state} ending={run.state === 'running' && run.cancel_requested} />
+        <StateBadge state={run.state} wish={wishOf(run)} />
         {!hasEnded(run.state) && <Freshness updatedAt={updatedAt} />}
         <span className={classes.actions}>
           {run.has_recording && <RecordingButton runId={run.id} />}
@@ -36,9 +37,15 @@ export function RunHeader({ run, updatedAt }: { run: RunDetail; updatedAt: numbe
           >
             Launch again
           </ButtonLink>
-          {!hasEnded(run.state) && <CancelButton run={run} />}
+          <RunActions run={run} />
         </span>
       </div>
+      {run.deleted_at !== null && (
+        <p className={classes.deleted} role="status">
+          This run was deleted {formatMoment(run.deleted_at)} and stands in no list. Nothing is lost: restore it to have
+          it back as it was.
+        </p>
+      )}
       <Notes run={run} />
       <RunFigures run={run} />
     </header>
@@ -51,6 +58,8 @@ function Notes({ run }: { run: RunDetail }) {
       <span className="faint">
         {run.phase} · {run.method} · seed {run.seed} · preset {run.preset}
         {run.attempt > 1 && ` · attempt ${run.attempt}`}
+        {run.priority !== 0 && ` · priority ${run.priority}`}
+        {run.gate_waived && ' · released below its gate'}
       </span>
       {run.reason !== null && (
         <span className={classes.reason} data-state={run.state} role={run.state === 'failed' ? 'alert' : undefined}>

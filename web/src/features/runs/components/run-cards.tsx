@@ -5,20 +5,29 @@ import { RunProgress } from '@/components/run-progress';
 import { StateBadge } from '@/components/state-badge';
 import { formatDuration } from '@/lib/format';
 import { runTitle } from '@/lib/run-title';
-import { Elapsed, Speed, Started, Success } from './run-figures';
+import { wishOf } from '@/lib/states';
+import type { Selection } from '../use-selection';
+import { Elapsed, Launched, Speed, Success } from './run-figures';
 import { hasNote, RunNote } from './run-note';
 import classes from './runs.module.css';
+import { SelectBox } from './select-box';
 
-export function RunCards({ runs }: { runs: readonly RunSummary[] }) {
+export function RunCards({ runs, selection }: { runs: readonly RunSummary[]; selection: Selection }) {
   return (
     <ul className={classes.cards} aria-label="Runs">
       {runs.map((run) => (
-        <li key={run.id} className={`card ${classes.card}`} data-run={run.id}>
+        <li
+          key={run.id}
+          className={`card ${classes.card}`}
+          data-run={run.id}
+          data-selected={selection.has(run.id) || undefined}
+        >
           <div className={classes.cardHead}>
+            <SelectBox run={run} selection={selection} />
             <AnchorLink to="/runs/$runId" params={{ runId: run.id }} fw={600} aria-label={runTitle(run)}>
               {run.task}
             </AnchorLink>
-            <StateBadge state={run.state} ending={run.state === 'running' && run.cancel_requested} />
+            <StateBadge state={run.state} wish={wishOf(run)} />
           </div>
           <div className="faint">
             {run.phase} · {run.method} · seed {run.seed} · {run.preset}
@@ -41,15 +50,13 @@ export function RunCards({ runs }: { runs: readonly RunSummary[] }) {
               </>
             )}
             {run.started_at && (
-              <>
-                <Figure name="Duration">
-                  <Elapsed run={run} />
-                </Figure>
-                <Figure name="Started">
-                  <Started run={run} />
-                </Figure>
-              </>
+              <Figure name="Duration">
+                <Elapsed run={run} />
+              </Figure>
             )}
+            <Figure name="Launched">
+              <Launched run={run} />
+            </Figure>
           </dl>
           {hasNote(run) && <RunNote run={run} runs={runs} />}
         </li>

@@ -52,15 +52,13 @@ function Running({ since }: { since: string }) {
   return <>{formatDuration(secondsBetween(since, now))}</>;
 }
 
-/** How long ago it began; the moment itself on hover. */
-export function Started({ run }: { run: RunSummary }) {
+/** How long ago it was launched; the moments of launch and start on hover. */
+export function Launched({ run }: { run: RunSummary }) {
   const now = useNow(10_000);
-  if (run.started_at === null) {
-    return <span title={`Launched ${formatMoment(run.created_at)}`}>{NOTHING}</span>;
-  }
+  const start = run.started_at === null ? 'not started yet' : `started ${formatMoment(run.started_at)}`;
   return (
-    <time dateTime={run.started_at} title={formatMoment(run.started_at)} className="faint">
-      {formatAgo(secondsBetween(run.started_at, now))}
+    <time dateTime={run.created_at} title={`${formatMoment(run.created_at)}, ${start}`} className="faint">
+      {formatAgo(secondsBetween(run.created_at, now))}
     </time>
   );
 }

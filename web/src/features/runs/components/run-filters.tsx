@@ -1,23 +1,32 @@
 /** Narrow the runs table by state, task, phase, method, or any word. */
-import { Button, Select, TextInput } from '@mantine/core';
+import { Button, Select, Switch, TextInput } from '@mantine/core';
 import { useDebouncedCallback } from '@mantine/hooks';
 import { useQuery } from '@tanstack/react-query';
 import { useState } from 'react';
 import { Icon } from '@/components/icon';
 import { choicesQuery } from '@/lib/queries';
 import { RUN_STATES } from '@/lib/states';
-import { isNarrowed, type RunsSearch } from '../search';
+import { isNarrowed, type RunsSearch, SORT_KEYS, type SortKey, searchOf, sortingOf } from '../search';
 import classes from './runs.module.css';
 
 /** Rest after the last key before the search starts [ms]. */
 const TYPING_REST_MS = 250;
 
+const SORT_NAMES: Record<SortKey, string> = {
+  launched: 'Launched',
+  state: 'State',
+  success: 'Success',
+  task: 'Task',
+};
+
 interface Props {
   search: RunsSearch;
+  /** Whether there is a table, whose heads sort it; cards need a field for that. */
+  hasTable: boolean;
   onChange: (changes: RunsSearch) => void;
 }
 
-export function RunFilters({ search, onChange }: Props) {
+export function RunFilters({ search, hasTable, onChange }: Props) {
   const { data: choices } = useQuery(choicesQuery);
   const isActive = isNarrowed(search);
   // A new search field for each clearing, as it holds what was typed.
@@ -49,6 +58,13 @@ export function RunFilters({ search, onChange }: Props) {
         names={choices?.methods.map((method) => method.name)}
         onPick={(method) => onChange({ method })}
       />
+      {!hasTable && <SortField search={search} onChange={onChange} />}
+      <Switch
+        size="xs"
+        label="Deleted"
+        checked={search.deleted === 'yes'}
+        onChange={(event) => onChange({ deleted: event.currentTarget.checked ? 'yes' : undefined })}
+      />
       {isActive && (
         <Button
           variant="subtle"
@@ -62,6 +78,20 @@ export function RunFilters({ search, onChange }: Props) {
         </Button>
       )}
     </search>
+  );
+}
+
+function SortField({ search, onChange }: Pick<Props, 'search' | 'onChange'>) {
+  const { sort } = sortingOf(search);
+  return (
+    <Select
+      size="xs"
+      className={classes.filter}
+      aria-label="Sort by"
+      data={Object.entries(SORT_NAMES).map(([value, label]) => ({ value, label: `By ${label.toLowerCase()}` }))}
+      value={sort}
+      onChange={(key) => key && onChange(searchOf({ sort: key as SortKey, descending: SORT_KEYS[key as SortKey] }))}
+    />
   );
 }
 

@@ -1,6 +1,7 @@
-/** Why a run waits or ended so, with the way to the run it waits for. */
+/** Why a run waits or ended so, with the way to the run it waits for, and what can be done about it. */
 import type { RunSummary } from '@/client/schema.gen';
 import { Reason } from '@/components/reason';
+import { RunRemedy } from '@/components/run-remedy';
 import { formatShare } from '@/lib/format';
 import classes from './runs.module.css';
 
@@ -18,6 +19,7 @@ export function RunNote({ run, runs }: { run: RunSummary; runs: readonly RunSumm
         runIds={run.needs}
         describe={(id) => standing(runs.find((other) => other.id === id))}
       />
+      <RunRemedy run={run} />
     </span>
   );
 }

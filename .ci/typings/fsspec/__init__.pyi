@@ -1,0 +1,1 @@
+# What is used of fsspec, which ships no types.

@@ -1,0 +1,86 @@
+"""A real cluster for the tests of this room, a store for each test, and both executors."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from cluster_cases import Behave, Cluster, fake_command
+
+from backend.store.database import Database, open_database
+from backend.store.settings import Settings, sqlite_url
+from worker.executors.local import LocalExecutor
+from worker.executors.ray_access import cluster_environment, connect, make_token
+
+HERE = Path(__file__).parent
+QUICK_TO_NOTICE = {
+    "RAY_health_check_initial_delay_ms": "1000",
+    "RAY_health_check_period_ms": "500",
+    "RAY_health_check_timeout_ms": "2000",
+    "RAY_health_check_failure_threshold": "4",
+}
+"""A node that is killed is missed after some 2 s; a cluster that is not told so takes some 15 s."""
+PATIENT_AT_START = {"RAY_agent_register_timeout_ms": "120000", "RAY_worker_register_timeout_seconds": "120"}
+
+
+@pytest.fixture(scope="session")
+def cluster() -> Iterator[Cluster]:
+    """Return a cluster of two nodes, which takes a token and listens on the loopback address only."""
+    home = Path(tempfile.mkdtemp(prefix="sldr-ray-"))  # Ray's sockets need a shorter path than pytest's.
+    make_token(home)
+    environment = {**cluster_environment(home, "127.0.0.1"), **QUICK_TO_NOTICE, **PATIENT_AT_START}
+    environment["RAY_TMPDIR"] = str(home)
+    with (home / "cluster.log").open("w") as log, pytest.MonkeyPatch.context() as patch:
+        for name, value in environment.items():
+            patch.setenv(name, value)
+        process = subprocess.Popen(
+            [sys.executable, str(HERE / "two_nodes.py")],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=log,
+            text=True,
+        )
+        cluster = Cluster(home, process)
+        yield cluster
+        cluster.end()
+    shutil.rmtree(home)
+
+
+@pytest.fixture(scope="session")
+def connected(cluster: Cluster) -> Iterator[None]:
+    """Let this process ask things of the cluster."""
+    connect(cluster.address, cluster.home)
+    yield
+    import ray
+
+    ray.shutdown()
+
+
+@pytest.fixture
+def settings(tmp_path: Path) -> Settings:
+    """Return a fresh data directory."""
+    return Settings(home=tmp_path, database_url=sqlite_url(tmp_path))
+
+
+@pytest.fixture
+def db(settings: Settings) -> Iterator[Database]:
+    """Return an empty store."""
+    database = open_database(settings)
+    yield database
+    database.close()
+
+
+@pytest.fixture(params=["local", pytest.param("ray", marks=pytest.mark.cluster)])
+def behave(request: pytest.FixtureRequest, settings: Settings) -> Behave:
+    """Return a way to make an executor, of each kind, whose children behave as told."""
+    if request.param == "local":
+        return lambda behaviour: LocalExecutor(settings, fake_command(behaviour))
+    request.getfixturevalue("connected")
+    from worker.executors.ray import RayExecutor
+
+    return lambda behaviour: RayExecutor(settings, 1, fake_command(behaviour))

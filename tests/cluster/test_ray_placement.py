@@ -1,0 +1,113 @@
+"""Runs go to nodes that have what they need free, wait for them, and are handed back where there are none."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import pytest
+from cluster_cases import Cluster, begin, fake_command, wait_for_cycles, wait_for_end, wait_until
+
+from backend.store.database import Database
+from backend.store.outcomes import HandedBack
+from backend.store.settings import Settings
+from worker.executors import Child
+
+if TYPE_CHECKING:
+    from worker.executors.ray import RayExecutor
+
+pytestmark = pytest.mark.cluster
+
+COUNT_CORES = [sys.executable, "-c", "import os; print('sees', len(os.sched_getaffinity(0)), 'core')"]
+
+
+@pytest.fixture
+def complete(cluster: Cluster, connected: None) -> None:
+    """Make sure that both nodes are there."""
+    cluster.complete()
+
+
+def ray_executor(settings: Settings, command: Sequence[str]) -> RayExecutor:
+    from worker.executors.ray import RayExecutor  # Reads its environment when imported.
+
+    return RayExecutor(settings, 1, command)
+
+
+def end(child: Child) -> None:
+    child.kill()
+    wait_for_end(child)
+
+
+def test_a_cluster_has_as_many_slots_as_runs_fit(settings: Settings, complete: None) -> None:
+    assert ray_executor(settings, fake_command("counts")).count_slots() == 2
+
+
+@pytest.mark.slow
+def test_a_third_attempt_waits_for_a_node(db: Database, settings: Settings, complete: None) -> None:
+    executor = ray_executor(settings, fake_command("lasts"))
+    wait_until(executor.has_room)
+    (claimed, first), (_, second), (last, third) = begin(db, executor), begin(db, executor), begin(db, executor)
+    wait_for_cycles(db, claimed.run_id, first)
+    waits = not (settings.run_directory(last.run_id) / "log.txt").exists()
+    has_room = executor.has_room()
+    end(first)
+    wait_for_cycles(db, last.run_id, third)
+    end(second)
+    end(third)
+
+    assert waits
+    assert not has_room
+
+
+@pytest.mark.slow
+def test_an_attempt_that_finds_no_node_is_handed_back(
+    db: Database, settings: Settings, complete: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from worker.executors import ray_child
+
+    executor = ray_executor(settings, fake_command("lasts"))
+    wait_until(executor.has_room)
+    placed = [begin(db, executor) for _ in range(2)]
+    for claimed, child in placed:
+        wait_for_cycles(db, claimed.run_id, child)
+    monkeypatch.setattr(ray_child, "PLACEMENT_S", 0.5)
+    _, child = begin(db, executor)
+    wait_for_end(child)
+    for _, other in placed:
+        end(other)
+
+    assert child.outcome() == HandedBack("For 0 s no node of the cluster had 1 core free.", ray_child.PLACE_AGAIN_S)
+
+
+def test_a_run_that_no_node_can_hold_is_handed_back_at_once(db: Database, settings: Settings, complete: None) -> None:
+    from worker.executors.ray_child import EXIT_UNPLACED, PLACE_AGAIN_S
+
+    claimed, child = begin(db, ray_executor(settings, fake_command("counts")), {"compute": {"threads": 3}})
+
+    assert child.poll() == EXIT_UNPLACED
+    assert child.outcome() == HandedBack(
+        "It needs 3 cores, and no node of the cluster has as much; add one, or cancel it.", PLACE_AGAIN_S
+    )
+    assert not settings.run_directory(claimed.run_id).exists()
+
+
+def test_a_node_that_sees_another_data_directory_gives_the_run_back(
+    db: Database, settings: Settings, complete: None
+) -> None:
+    executor = ray_executor(settings, fake_command("counts"))
+    (settings.home / "home-id").write_text("another")
+    _, child = begin(db, executor)
+    wait_for_end(child)
+
+    outcome = child.outcome()
+    assert isinstance(outcome, HandedBack)
+    assert f"does not see the data directory {settings.home} of its worker" in outcome.reason
+
+
+def test_a_run_that_takes_every_core_sees_only_its_own(db: Database, settings: Settings, complete: None) -> None:
+    executor = ray_executor(settings, COUNT_CORES)
+    claimed, child = begin(db, executor, {"compute": {"threads": 0}})
+
+    assert wait_for_end(child) == 0
+    assert (settings.run_directory(claimed.run_id) / "log.txt").read_text() == "sees 1 core\n"

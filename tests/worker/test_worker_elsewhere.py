@@ -1,0 +1,229 @@
+"""A run goes on where another machine left it: two data directories, one store, one shared place for files."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+import torch
+
+from backend.store.claims import Claim
+from backend.store.database import Database
+from backend.store.errors import FilesUnavailable, StaleFence
+from backend.store.files import find_file, list_files
+from backend.store.launches import LaunchOrder, launch
+from backend.store.metrics import read_metrics
+from backend.store.outcomes import HandedBack, Succeeded
+from backend.store.queue import claim, finish
+from backend.store.settings import Settings
+from backend.store.storage import FileStorage, SharedPlace
+from sldr_core.records import Step
+from sldr_core.training import DirectoryRecorder, train
+from sldr_core.training.checkpoint import KIND
+from sldr_core.training.files import CHECKPOINT_FILE, NEWEST_POLICY_FILE, REPLAY_FILE
+from worker.claimed_files import bring_claimed_run, send_log
+from worker.file_keeper import FileKeeper
+from worker.locomotion_files import find_locomotion_models
+from worker.recorder import StoreRecorder
+
+KILLED_AT = 11
+"""Cycle after which the first machine dies; its newest checkpoint is of cycle 10."""
+LOOP = {"epochs": 2, "cycles_per_epoch": 6, "episodes_per_cycle": 2, "test_episodes": 2}
+
+
+class PowerCut(Exception):
+    """Stand in for the end of a machine."""
+
+
+class DyingRecorder(StoreRecorder):
+    """Record until the machine dies."""
+
+    def log(self, step: Step, metrics: Mapping[str, float]) -> None:
+        if step.cycle > KILLED_AT:
+            raise PowerCut
+        super().log(step, metrics)
+
+
+@pytest.fixture
+def here(settings: Settings, tmp_path: Path) -> Settings:
+    """Return a machine that shares its files."""
+    return replace(settings, files_url=f"file://{tmp_path}/shared")
+
+
+@pytest.fixture
+def there(here: Settings, tmp_path: Path) -> Settings:
+    """Return another one."""
+    return replace(here, home=tmp_path / "there")
+
+
+@pytest.fixture
+def first(db: Database) -> Claim:
+    """Return a claimed locomotion run that another one waits for."""
+    launch(db, LaunchOrder("FetchPush", "manipulation", "her-sldr", [0], "smoke"))
+    return next_claim(db)
+
+
+def next_claim(db: Database) -> Claim:
+    claimed = claim(db, "worker-1")
+    assert claimed is not None
+    return claimed
+
+
+def hand_over(db: Database, held: Claim) -> Claim:
+    """End an attempt and claim its run again."""
+    finish(db, held, HandedBack("Its worker was asked to end."))
+    return next_claim(db)
+
+
+def begin(
+    db: Database, settings: Settings, held: Claim, recorder: type[StoreRecorder] = StoreRecorder
+) -> StoreRecorder:
+    """Do what a child does before it trains."""
+    settings.run_directory(held.run_id).mkdir(parents=True, exist_ok=True)
+    bring_claimed_run(db, settings, held)
+    return recorder(db, settings, held, lambda: None)
+
+
+def save(db: Database, settings: Settings, held: Claim, content: bytes, name: str = CHECKPOINT_FILE) -> None:
+    """Save a file as a training would, after episodes were stored."""
+    with begin(db, settings, held) as recorder:
+        (recorder.directory / REPLAY_FILE).write_bytes(content * 2)
+        recorder.save_file(name, KIND if name == CHECKPOINT_FILE else "policy", lambda path: _write(path, content))
+
+
+def _write(path: Path, content: bytes) -> None:
+    path.write_bytes(content)
+
+
+def tensors(path: Path) -> Iterator[torch.Tensor]:
+    """Return every tensor in a file."""
+    yield from _tensors_in(torch.load(path, weights_only=True))
+
+
+def _tensors_in(value: Any) -> Iterator[torch.Tensor]:
+    if isinstance(value, torch.Tensor):
+        yield value
+    elif isinstance(value, Mapping):
+        for part in value.values():
+            yield from _tensors_in(part)
+    elif isinstance(value, list | tuple):
+        for part in value:
+            yield from _tensors_in(part)
+
+
+def shared_paths(settings: Settings, run_id: str) -> set[str]:
+    assert settings.files_url is not None
+    return set(SharedPlace(settings.files_url).paths_below(f"runs/{run_id}"))
+
+
+def test_a_run_whose_machine_died_ends_elsewhere_with_the_same_bits(
+    db: Database, here: Settings, there: Settings, tmp_path: Path
+) -> None:
+    launch(db, LaunchOrder("FetchPush", "locomotion", "her", [0], "smoke", {"loop": LOOP}))
+    first = next_claim(db)
+    dying = begin(db, here, first, DyingRecorder)
+    with pytest.raises(PowerCut), dying:
+        train(first.config, dying)
+    second = hand_over(db, first)
+    with begin(db, there, second) as recorder:
+        train(second.config, recorder)
+
+    undisturbed = DirectoryRecorder(tmp_path / "undisturbed")
+    train(first.config, undisturbed)
+    for name in (CHECKPOINT_FILE, NEWEST_POLICY_FILE):
+        pairs = zip(tensors(recorder.directory / name), tensors(undisturbed.directory / name), strict=True)
+        assert all(torch.equal(*pair) for pair in pairs)
+    columns = read_metrics(db, first.run_id)
+    assert columns.step == list(range(1, 13))
+    assert [columns.attempt[cycle - 1] for cycle in (1, 10, 11, 12)] == [1, 1, 2, 2]
+
+
+def test_a_machine_that_gets_its_run_back_takes_the_newer_checkpoint(
+    db: Database, here: Settings, there: Settings, first: Claim
+) -> None:
+    save(db, here, first, b"of the first")
+    second = hand_over(db, first)
+    save(db, there, second, b"of the second")
+    third = hand_over(db, second)
+
+    directory = begin(db, here, third).directory
+
+    assert (directory / CHECKPOINT_FILE).read_bytes() == b"of the second"
+    assert (directory / REPLAY_FILE).read_bytes() == b"of the second" * 2
+
+
+def test_a_machine_that_trained_last_goes_on_from_its_own_directory(db: Database, here: Settings, first: Claim) -> None:
+    save(db, here, first, b"stored")
+    (here.run_directory(first.run_id) / CHECKPOINT_FILE).write_bytes(b"newer, its row was not written any more")
+
+    directory = begin(db, here, hand_over(db, first)).directory
+
+    assert (directory / CHECKPOINT_FILE).read_bytes().startswith(b"newer")
+
+
+def test_what_no_row_holds_any_more_is_removed(db: Database, here: Settings, first: Claim) -> None:
+    for content in (b"one", b"two"):
+        save(db, here, first, content)
+    stray = f"runs/{first.run_id}/attempt-1/policy-best-000000000000.pt"
+    assert here.files_url is not None
+    SharedPlace(here.files_url).put_bytes(b"its attempt died before it was registered", stray)
+
+    second = hand_over(db, first)
+    begin(db, here, second)
+
+    rows = {row.path for row in list_files(db, first.run_id)}
+    blocks = {path for path in shared_paths(here, first.run_id) if "/replay/" in path}
+    assert shared_paths(here, first.run_id) == rows | blocks
+    assert len(blocks) == 1
+
+
+def test_an_attempt_that_is_over_spoils_nothing(db: Database, here: Settings, there: Settings, first: Claim) -> None:
+    late = begin(db, here, first)
+    save(db, there, hand_over(db, first), b"of the second")
+
+    with pytest.raises(StaleFence):
+        late.save_file(CHECKPOINT_FILE, KIND, lambda path: _write(path, b"late"))
+
+    row = find_file(db, first.run_id, CHECKPOINT_FILE)
+    assert b"".join(FileStorage(here).read(row)) == b"of the second"
+
+
+def test_a_model_trained_elsewhere_is_fetched(db: Database, here: Settings, there: Settings, first: Claim) -> None:
+    save(db, here, first, b"weights", "locomotion.pt")
+    finish(db, first, Succeeded(1.0))
+    waiting = next_claim(db)
+
+    (path,) = find_locomotion_models(db, there, waiting)
+
+    assert path.is_relative_to(there.home)
+    assert path.read_bytes() == b"weights"
+
+
+def test_the_log_goes_on_where_the_run_goes_on(db: Database, here: Settings, there: Settings, first: Claim) -> None:
+    save(db, here, first, b"stored")
+    (here.run_directory(first.run_id) / "log.txt").write_text("said here\n")
+    send_log(db, here, first)
+    second = hand_over(db, first)
+    log = there.run_directory(first.run_id) / "log.txt"
+    log.parent.mkdir(parents=True)
+
+    with log.open("a") as written_by_the_child:
+        begin(db, there, second)
+        written_by_the_child.write("said there\n")
+
+    assert log.read_text() == "said here\nsaid there\n"
+
+
+def test_a_place_out_of_reach_is_trouble_that_may_pass(
+    db: Database, here: Settings, first: Claim, tmp_path: Path
+) -> None:
+    (tmp_path / "shared").write_text("a file where the directory should be")
+    (tmp_path / "policy-best.pt").write_bytes(b"weights")
+    keeper = FileKeeper(db, FileStorage(here), first, patience_s=0.0)
+
+    with pytest.raises(FilesUnavailable):
+        keeper.keep("policy-best.pt", "policy", tmp_path / "policy-best.pt")
+    assert list_files(db, first.run_id) == []
