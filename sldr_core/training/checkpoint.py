@@ -13,11 +13,11 @@ import numpy as np
 import torch
 
 from sldr_core.config import TrainConfig, config_from_dict, config_hash, config_to_dict
+from sldr_core.disk import write_atomically
 from sldr_core.envs import Envs
 from sldr_core.errors import BadFile, InvalidConfig
 from sldr_core.nets.files import load_tensors, one_line, save_tensors
 from sldr_core.training.build import Parts
-from sldr_core.training.directory import write_atomically
 from sldr_core.training.files import (
     CHECKPOINT_FILE,
     DAMAGED_CHECKPOINT_FILE,

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
 
-from sldr_core.disk import explain_full_disk
+from sldr_core.disk import explain_full_disk, sync, write_atomically
 from sldr_core.errors import DirectoryInUse
 from sldr_core.records import Step
 from sldr_core.training.files import METRICS_FILE
@@ -54,7 +54,7 @@ class DirectoryRecorder:
             DiskTooFull: there is no room for it.
         """
         # A checkpoint must never be on the disk before the lines that it says are logged.
-        _sync(self._directory / METRICS_FILE)
+        sync(self._directory / METRICS_FILE)
         return write_atomically(self._directory / name, write)
 
     def stop_requested(self) -> StopReason | None:
@@ -64,26 +64,6 @@ class DirectoryRecorder:
     def request_stop(self, reason: StopReason) -> None:
         """Ask the training to end."""
         self._stop = reason
-
-
-def write_atomically(path: Path, write: Callable[[Path], None]) -> Path:
-    """Let `write` fill a temporary file beside `path`, sync it, and rename it to `path`.
-
-    A reader sees the old file or the new one, whenever this process or the machine dies.
-
-    Raises:
-        DiskTooFull: there is no room for it; the old file is left as it was.
-    """
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
-    try:
-        with explain_full_disk(path):
-            write(temporary)
-            _sync(temporary)
-            temporary.rename(path)
-    finally:
-        temporary.unlink(missing_ok=True)
-    _sync(path.parent)
-    return path
 
 
 @contextmanager
@@ -120,16 +100,6 @@ def _is_another_living(pid: int) -> bool:
     except PermissionError:
         pass
     return pid != os.getpid()
-
-
-def _sync(path: Path) -> None:
-    """Bring a file, or the names in a directory, to the disk, if it is there."""
-    if path.exists():
-        descriptor = os.open(path, os.O_RDONLY)
-        try:
-            os.fsync(descriptor)
-        finally:
-            os.close(descriptor)
 
 
 def _drop_from(path: Path, cycle: int) -> None:
