@@ -64,9 +64,10 @@ class QueueEntry(Strict):
 
 
 class Queue(Strict):
-    """The runs that have not ended, in the order in which they will start."""
+    """The first of the runs that have not ended, in the order in which they will start."""
 
     entries: list[QueueEntry]
+    total: int = Field(description="Runs that have not ended, shown or not.")
 
 
 class Attempt(Strict):

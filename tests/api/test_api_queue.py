@@ -21,6 +21,13 @@ def test_the_queue_tells_places_and_what_is_waited_for(service: Service):
     assert locomotion_id in second["waits_for"]
 
 
+def test_of_a_long_queue_the_first_are_sent_and_all_are_counted(service: Service):
+    first, *_ = service.launch(seeds=(0, 1, 2))
+    queue = service.get("/api/queue", params={"limit": 1})
+    assert [entry["run"]["id"] for entry in queue["entries"]] == [first]
+    assert queue["total"] == 3
+
+
 def test_what_runs_stands_first_and_has_started(service: Service):
     ids = service.launch(seeds=(0, 1))
     service.claim()

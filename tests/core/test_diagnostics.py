@@ -10,7 +10,7 @@ import torch
 from small_training import metrics_of, run, save_untrained_model, tiny_config
 
 from sldr_core.agent import InverseLearner
-from sldr_core.config import AgentConfig
+from sldr_core.config import AgentConfig, Phase
 from sldr_core.nets.normalizer import STD_FLOOR, Normalizer
 from sldr_core.nets.transitions import Transitions
 from sldr_core.streams import SldrStream, TaskStream
@@ -18,6 +18,7 @@ from sldr_core.training.build import build_training
 from sldr_core.training.cycle import collect, collect_random, learn
 from sldr_core.training.gathering import Gathered
 
+PAGE = Path(__file__).parents[2] / "docs" / "training.md"
 STREAM_PARTS = ("mean", "clip_low_share", "clip_high_share")
 CRITIC_PARTS = ("loss", "q_mean", "q_min", "q_max", "target_clip_low_share", "target_clip_high_share")
 
@@ -44,6 +45,21 @@ def test_every_cycle_of_an_object_tells_of_its_inverse_model(tmp_path: Path) -> 
 
     for line in metrics_of(tmp_path):
         assert {"inverse/loss", "inverse/fresh_error"} <= set(line["metrics"])
+
+
+@pytest.mark.parametrize(
+    ("phase", "method"), [("locomotion", "her"), ("manipulation", "her-sldr"), ("manipulation", "her-rnd")]
+)
+def test_the_page_on_trainings_explains_every_number(phase: Phase, method: str, tmp_path: Path) -> None:
+    page = PAGE.read_text()
+    run(tiny_config(phase, method), tmp_path / "run", (save_untrained_model(tmp_path / "model.pt"),))
+
+    names = {name for line in metrics_of(tmp_path / "run") for name in line["metrics"]}
+
+    for name in names - {"progress/fraction"}:
+        group, *stream, part = name.split("/")
+        place = f"`{group}/<stream>/" if stream else f"`{group}/"
+        assert any(place in line and f"{part}`" in line for line in page.splitlines()), name
 
 
 def test_means_least_and_greatest_values_are_gathered_over_a_cycle() -> None:

@@ -101,7 +101,8 @@ def lowest_targets(agent: AgentConfig, streams: int) -> list[float]:
     learner = DdpgAgent(
         view, 1, names, [1.0] * streams, agent, torch.Generator().manual_seed(0), torch.device("cpu"), autocast=False
     )
-    batch = Transitions(*torch.zeros(2, 3, 1), torch.zeros(3, 1), torch.zeros(3, 1), torch.zeros(3), extra={})
+    column = torch.zeros(3, 1)
+    batch = Transitions(column, column, goal=column, action=column, reward=torch.zeros(3), extra={})
     metrics = learner.update(batch, torch.full((streams, 3), -1e6))
     targets = [
         -(float(metrics[f"critic/{name}/loss"]) ** 0.5) + float(metrics[f"critic/{name}/q_mean"]) for name in names

@@ -22,9 +22,8 @@ from backend.store.settings import Settings
 from backend.store.storage import FileStorage, SharedPlace
 from sldr_core.records import Step
 from sldr_core.training import DirectoryRecorder, train
-from sldr_core.training.build import REPLAY_FILE
-from sldr_core.training.checkpoint import CHECKPOINT_FILE, KIND
-from sldr_core.training.policy import NEWEST_POLICY_FILE
+from sldr_core.training.checkpoint import KIND
+from sldr_core.training.files import CHECKPOINT_FILE, NEWEST_POLICY_FILE, REPLAY_FILE
 from worker.claimed_files import bring_claimed_run, send_log
 from worker.file_keeper import FileKeeper
 from worker.locomotion_files import find_locomotion_models

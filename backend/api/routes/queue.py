@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from fastapi import APIRouter
+from typing import Annotated
+
+from fastapi import APIRouter, Query
 
 from backend.api.answers import run_summary
 from backend.api.dependencies import Store
@@ -10,12 +12,16 @@ from backend.api.errors import problem_responses
 from backend.api.queue_schemas import Queue, QueueEntry
 from backend.store import forecast
 
+LARGEST_QUEUE = 1000
+"""Runs in one answer at most."""
+
 router = APIRouter(prefix="/api/queue", tags=["queue"])
 
 
-@router.get("", responses=problem_responses())
-def get_queue(store: Store) -> Queue:
-    """List the runs that have not ended, in the order in which they will start."""
+@router.get("", responses=problem_responses(422))
+def get_queue(store: Store, limit: Annotated[int, Query(ge=1, le=LARGEST_QUEUE)] = 200) -> Queue:
+    """List the first of the runs that have not ended, in the order in which they will start."""
+    entries = forecast.list_queue(store)
     return Queue(
         entries=[
             QueueEntry(
@@ -25,6 +31,7 @@ def get_queue(store: Store) -> Queue:
                 starts_at=entry.starts_at,
                 ends_at=entry.ends_at,
             )
-            for entry in forecast.list_queue(store)
-        ]
+            for entry in entries[:limit]
+        ],
+        total=len(entries),
     )

@@ -22,7 +22,7 @@ beforeEach(() => {
     entry(4, 'blocked', null, 'Waits for the locomotion run run-9.'),
   ];
   server = startServer()
-    .on('GET /api/queue', () => ({ body: { entries } }))
+    .on('GET /api/queue', () => ({ body: { entries, total: entries.length } }))
     .on('POST /api/runs/run-2/move', () => DONE)
     .on('PUT /api/runs/priority', () => DONE);
 });
@@ -73,7 +73,7 @@ test('a typed priority is sent on Enter', async () => {
 });
 
 test('an empty queue says what to do', async () => {
-  server.on('GET /api/queue', () => ({ body: { entries: [] } }));
+  server.on('GET /api/queue', () => ({ body: { entries: [], total: 0 } }));
   openPage('/queue');
   expect(await screen.findByText('Nothing runs and nothing waits')).toBeTruthy();
 });

@@ -93,7 +93,7 @@ export interface paths {
         };
         /**
          * Get Queue
-         * @description List the runs that have not ended, in the order in which they will start.
+         * @description List the first of the runs that have not ended, in the order in which they will start.
          */
         get: operations["get_queue"];
         put?: never;
@@ -793,11 +793,16 @@ export interface components {
         };
         /**
          * Queue
-         * @description The runs that have not ended, in the order in which they will start.
+         * @description The first of the runs that have not ended, in the order in which they will start.
          */
         Queue: {
             /** Entries */
             entries: components["schemas"]["QueueEntry"][];
+            /**
+             * Total
+             * @description Runs that have not ended, shown or not.
+             */
+            total: number;
         };
         /**
          * QueueEntry
@@ -1483,7 +1488,9 @@ export interface operations {
     };
     get_queue: {
         parameters: {
-            query?: never;
+            query?: {
+                limit?: number;
+            };
             header?: never;
             path?: never;
             cookie?: never;
@@ -1497,6 +1504,15 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Queue"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
                 };
             };
             /** @description An error of the service itself. */
