@@ -25,7 +25,6 @@ class DirectoryRecorder:
 
     def __init__(self, directory: Path) -> None:
         directory.mkdir(parents=True, exist_ok=True)
-        remove_leftovers(directory)
         self._directory = directory
         self._stop: StopReason | None = None
         self._logged = False
@@ -67,17 +66,11 @@ class DirectoryRecorder:
         self._stop = reason
 
 
-def remove_leftovers(directory: Path) -> None:
-    """Remove the temporary files of processes that were killed while they wrote; those of living ones stay."""
-    for path in directory.glob(".*.tmp"):
-        writer = re.fullmatch(r"\..+\.(\d+)\.tmp", path.name)
-        if writer and not _is_another_living(int(writer[1])):
-            path.unlink(missing_ok=True)
-
-
 @contextmanager
 def alone_in(directory: Path) -> Iterator[None]:
-    """Keep every other process from training in a directory; a process that is killed lets go of it.
+    """Keep every other process from training in a directory, and remove what killed ones left half written there.
+
+    A process that is killed lets go of it.
 
     Raises:
         DirectoryInUse: another process trains there.
@@ -87,7 +80,16 @@ def alone_in(directory: Path) -> Iterator[None]:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError as err:
             raise DirectoryInUse(f"Another process trains in {directory}; wait for it, or use another one.") from err
+        _remove_leftovers(directory)
         yield
+
+
+def _remove_leftovers(directory: Path) -> None:
+    """Remove the temporary files of processes that were killed while they wrote; those of living ones stay."""
+    for path in directory.glob(".*.tmp"):
+        writer = re.fullmatch(r"\..+\.(\d+)\.tmp", path.name)
+        if writer and not _is_another_living(int(writer[1])):
+            path.unlink(missing_ok=True)
 
 
 def _is_another_living(pid: int) -> bool:

@@ -22,11 +22,15 @@ from backend.store.settings import Settings
 from worker.executors import Child, Executor
 
 FAKE_CHILD = Path(__file__).parents[1] / "worker" / "fake_child.py"
-PATIENCE_S = 60.0
+PATIENCE_S = 180.0
 """Long, because the machine that runs the tests may be busy with others."""
 
 Behave = Callable[[str], Executor]
 """Makes an executor whose children behave so."""
+
+
+class ClusterNotStarted(Exception):
+    """Report what a cluster said that ended before it began."""
 
 
 class Cluster:
@@ -68,7 +72,8 @@ class Cluster:
     def _read(self) -> tuple[str, list[int]]:
         assert self._process.stdout is not None
         line = self._process.stdout.readline()
-        assert line, (self.home / "cluster.log").read_text()
+        if not line:
+            raise ClusterNotStarted((self.home / "cluster.log").read_text())
         said = json.loads(line)
         return said["address"], said["raylets"]
 

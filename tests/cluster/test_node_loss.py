@@ -72,6 +72,7 @@ def test_a_run_goes_on_elsewhere_when_its_node_is_killed(db: Database, settings:
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("engine", ["postgresql"], indirect=True)
 def test_a_real_run_goes_on_from_its_checkpoint_elsewhere(db: Database, settings: Settings, cluster: Cluster) -> None:
     cluster.complete()
     run_id = queue_run(db, {"loop": {"epochs": REAL_EPOCHS}})

@@ -2,15 +2,26 @@
 
 from __future__ import annotations
 
+import socket
 import sys
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+import psutil
 import pytest
-from cluster_cases import Cluster, begin, fake_command, wait_for_cycles, wait_for_end, wait_until
+from cluster_cases import (
+    Cluster,
+    begin,
+    fake_command,
+    is_running,
+    process_of,
+    wait_for_cycles,
+    wait_for_end,
+    wait_until,
+)
 
 from backend.store.database import Database
-from backend.store.outcomes import HandedBack
+from backend.store.outcomes import HandedBack, Lost
 from backend.store.settings import Settings
 from worker.executors import Child
 
@@ -41,6 +52,20 @@ def end(child: Child) -> None:
 
 def test_a_cluster_has_as_many_slots_as_runs_fit(settings: Settings, complete: None) -> None:
     assert ray_executor(settings, fake_command("counts")).count_slots() == 2
+
+
+def test_an_attempt_ends_with_what_holds_it_on_its_node(db: Database, settings: Settings, complete: None) -> None:
+    executor = ray_executor(settings, fake_command("lasts"))
+    wait_until(executor.has_room)
+    claimed, child = begin(db, executor)
+    wait_for_cycles(db, claimed.run_id, child)
+    pid = process_of(settings, claimed.run_id)
+
+    psutil.Process(psutil.Process(pid).ppid()).kill()
+
+    wait_until(lambda: not is_running(pid))
+    wait_for_end(child)
+    assert child.outcome() == Lost(f"The cluster lost what held its process on {socket.gethostname()}.")
 
 
 @pytest.mark.slow

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import get_args
 
 import pytest
-from store_cases import claim_next, claimed_run, order
+from store_cases import claimed_run, order
 
 from backend.store.database import Database
 from backend.store.errors import NotFound
 from backend.store.files import find_file, list_files, register_file
 from backend.store.launches import launch
 from backend.store.progress import Progress, find_progress, report_progress
-from backend.store.runs import RunFilter, SortKey, get_run, get_runs, list_events, list_runs
+from backend.store.runs import RunFilter, get_run, get_runs, list_events, list_runs
 from backend.store.states import RunState
 from sldr_core.errors import InvalidConfig
 
@@ -37,30 +36,6 @@ def test_pages_hold_every_run_once_newest_first(db: Database) -> None:
 
     assert seen == launched[::-1]
     assert page.total == 5
-
-
-@pytest.mark.parametrize("descending", [False, True])
-@pytest.mark.parametrize("sort", get_args(SortKey))
-def test_pages_in_any_order_hold_every_run_once(db: Database, sort: SortKey, descending: bool) -> None:
-    launched = launch(db, order(seeds=(0, 1, 2))) + launch(db, order(task="FetchSlide", seeds=(0, 1)))
-    for rate in (0.5, None, 0.25):
-        report_progress(db, claim_next(db), replace(HALFWAY, success_rate=rate))
-    rows = {row.id: row for row in get_runs(db, launched)}
-    keys = {
-        "launched": launched.index,
-        "task": lambda run_id: rows[run_id].task,
-        "state": lambda run_id: rows[run_id].state,
-        "success": lambda run_id: -1.0 if (done := rows[run_id].progress) is None else done.success_rate or -1.0,
-    }
-
-    page = list_runs(db, RunFilter(), 2, sort=sort, descending=descending)
-    seen = [row.id for row in page.rows]
-    while page.next_cursor is not None:
-        page = list_runs(db, RunFilter(), 2, page.next_cursor, sort, descending)
-        seen += [row.id for row in page.rows]
-
-    assert sorted(seen) == sorted(launched)
-    assert [keys[sort](run_id) for run_id in seen] == sorted(map(keys[sort], launched), reverse=descending)
 
 
 def test_a_filter_leaves_out_the_others(db: Database) -> None:

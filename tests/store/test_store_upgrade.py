@@ -8,12 +8,14 @@ from __future__ import annotations
 
 import sqlite3
 from collections.abc import Iterator
+from contextlib import closing
 from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
 from sqlalchemy import text
 from store_cases import claim_next, step
+from store_engines import SqliteStores
 
 from backend.store.actions import Action, act_on
 from backend.store.attempts import list_attempts
@@ -24,7 +26,6 @@ from backend.store.metrics import MetricPoint, append_metrics, read_metrics
 from backend.store.outcomes import HandedBack, Succeeded
 from backend.store.queue import claim, finish, heartbeat
 from backend.store.runs import RunFilter, RunRow, get_run, list_events, list_runs
-from backend.store.settings import Settings
 from backend.store.states import RunState
 from backend.store.tables import SCHEMA_REVISION
 from sldr_core.config import config_from_dict
@@ -34,14 +35,13 @@ OLD_WORKER = "f3d036893edd"
 
 
 @pytest.fixture
-def db(settings: Settings) -> Iterator[Database]:
-    """Return the store that the first version left, opened by this one."""
-    with sqlite3.connect(settings.home / "sldr.db") as connection:
-        connection.executescript(FIRST_STORE.read_text())
-    connection.close()
-    database = open_database(settings)
-    yield database
-    database.close()
+def db(sqlite_stores: SqliteStores, tmp_path: Path) -> Iterator[Database]:
+    """Return the store that the first version left, opened by this one; that version knew SQLite alone."""
+    with sqlite_stores.fresh(tmp_path, empty=True) as settings:
+        with closing(sqlite3.connect(tmp_path / "sldr.db")) as connection:
+            connection.executescript(FIRST_STORE.read_text())
+        with closing(open_database(settings)) as database:
+            yield database
 
 
 def only(db: Database, state: RunState) -> RunRow:

@@ -68,7 +68,9 @@ def count(recorder: StoreRecorder, last_cycle: int) -> Result:
         cycle += 1
         time.sleep(CYCLE_S)
         recorder.log(step(cycle), {"test/success_rate": 0.5, "speed/env_steps_per_s": 10.0})
-        checkpoint.write_text(str(cycle))
+        written = checkpoint.with_suffix(".new")
+        written.write_text(str(cycle))
+        written.replace(checkpoint)  # A kill in the middle leaves the checkpoint before, as the real one does.
         stop = recorder.stop_requested()
         if stop is not None:
             return Result(stopped=stop)

@@ -23,8 +23,6 @@ from worker.executors.ray_child import RayChild, UnplacedChild
 from worker.executors.ray_needs import Resources, alive_resources, count_slots, describe_nodes, needs_of
 from worker.executors.shared_home import mark_home
 
-FILES_VARIABLE = "SLDR_FILES_URL"
-"""Names a place for files that every machine reaches; without it they share the data directory."""
 NO_SECOND_TRY = {"max_restarts": 0, "max_task_retries": 0}
 
 log = logging.getLogger(__name__)
@@ -43,11 +41,10 @@ class RayExecutor:
         if cores < 1:
             raise InvalidConfig({"cores": f"a run needs at least 1, got {cores}"})
         self._cores = cores
-        environment = settings.as_environment()
         self._terms = Terms(
-            environment=environment,
+            environment=settings.as_environment(),
             only_host=socket.gethostname() if settings.database_url.startswith("sqlite") else None,
-            home_mark=None if FILES_VARIABLE in environment else mark_home(settings.home),
+            home_mark=None if settings.files_url is not None else mark_home(settings.home),
             version=version("sldr"),
             command=command,
         )

@@ -24,6 +24,8 @@ SETTLING_S = 2.0
 KILL_S = 5.0
 """How long a node may take to kill an attempt; then what holds it there is killed [s]."""
 WAIT_STEP_S = 0.05
+NODE_DIED = "its node has died"
+"""What Ray writes of an attempt whose machine is gone, and of no other."""
 
 EXIT_LOST = 72
 """Stands for the exit status of a process that nobody can ask any more."""
@@ -99,7 +101,6 @@ class RayChild:
             return
         self._kill_at = time.monotonic() + KILL_S
         if self._placement is None:
-            ray.kill(self._host, no_restart=True)
             self._end(-signal.SIGKILL, failure_of(-signal.SIGKILL))
         else:
             self._host.kill.remote()
@@ -191,6 +192,6 @@ def _outcome_of(err: RayTaskError) -> Outcome:
 
 def _loss(err: RayError) -> str:
     """Say in words what is gone."""
-    if isinstance(err, ActorDiedError) and "node" in str(err).lower() and "died" in str(err):
+    if isinstance(err, ActorDiedError) and NODE_DIED in str(err):
         return "The cluster lost its node"
     return "The cluster lost what held its process"

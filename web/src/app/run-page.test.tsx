@@ -1,6 +1,7 @@
 import { screen, waitFor, within } from '@testing-library/react';
 import { beforeEach, expect, test } from 'vitest';
 import type { RunDetail } from '@/client/schema.gen';
+import { NO_METRICS } from '@/lib/metrics';
 import type { FakeServer } from '@/testing/fake-server';
 import { openPage, startServer } from '@/testing/open-page';
 import { DETAIL } from '@/testing/samples';
@@ -8,21 +9,9 @@ import { DETAIL } from '@/testing/samples';
 let server: FakeServer;
 beforeEach(() => {
   server = startServer()
-    .on('GET /api/runs/run-1/metrics', () => ({ body: NO_POINTS }))
+    .on('GET /api/runs/run-1/metrics', () => ({ body: NO_METRICS }))
     .on('POST /api/runs/actions', ({ body }) => ({ body: { results: doneFor(body as { run_ids: string[] }) } }));
 });
-
-const NO_POINTS = {
-  cursor: 0,
-  attempt: [],
-  step: [],
-  epoch: [],
-  env_steps: [],
-  episodes: [],
-  updates: [],
-  wall_seconds: [],
-  values: {},
-};
 
 function doneFor({ run_ids }: { run_ids: string[] }) {
   return run_ids.map((run_id) => ({ run_id, done: true, message: `Run ${run_id} is done with.` }));
