@@ -8,6 +8,8 @@ HOST ?= 127.0.0.1
 PORT ?= 8000
 # The parts of the check to run; see .ci/checks.sh.
 PARTS ?= all
+# Options of `make chaos`; `make chaos CHAOS=--help` lists them.
+CHAOS ?=
 # What the system packages are for: run, or test.
 purpose := run
 
@@ -15,13 +17,16 @@ PIP := .venv/bin/python -m pip --disable-pip-version-check --quiet
 WEB_SOURCES := $(shell find web/src web/public -type f -not -name '*.test.*' 2>/dev/null)
 CLIENT := web/src/client/schema.gen.ts
 
-.PHONY: run test setup web client lock format clean help system
+.PHONY: run test chaos setup web client lock format clean help system
 
 run: setup ## Set everything up and serve the page; HOST and PORT say where
 	@exec .venv/bin/sldr serve --host $(HOST) --port $(PORT)
 
 test: setup ## Set everything up and run every check; PARTS="lint pytest" runs some
 	@.ci/checks.sh $(PARTS)
+
+chaos: setup ## Kill, crowd and hurry a service; the results go into docs/reliability.md (many minutes)
+	@.venv/bin/python tests/chaos --write docs/reliability.md $(CHAOS)
 
 setup: system .make/package web ## Make the Python environment and build the page
 

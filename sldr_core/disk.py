@@ -1,10 +1,11 @@
-"""Room on the disk: asked for before a run starts, and explained when it has run out."""
+"""Files on the disk: written whole or not at all, room for them asked for first, a full disk explained."""
 
 from __future__ import annotations
 
 import errno
+import os
 import shutil
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -55,6 +56,36 @@ def explain_full_disk(path: Path) -> Iterator[None]:
             "is used up; free some space (the replay.bin of a finished run is no longer needed) and start again: "
             "the run goes on from its last checkpoint."
         ) from err
+
+
+def write_atomically(path: Path, write: Callable[[Path], None]) -> Path:
+    """Let `write` fill a temporary file beside `path`, sync it, and rename it to `path`.
+
+    A reader sees the old file or the new one, whenever this process or the machine dies.
+
+    Raises:
+        DiskTooFull: there is no room for it; the old file is left as it was.
+    """
+    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
+    try:
+        with explain_full_disk(path):
+            write(temporary)
+            sync(temporary)
+            temporary.rename(path)
+    finally:
+        temporary.unlink(missing_ok=True)
+    sync(path.parent)
+    return path
+
+
+def sync(path: Path) -> None:
+    """Bring a file, or the names in a directory, to the disk, if it is there."""
+    if path.exists():
+        descriptor = os.open(path, os.O_RDONLY)
+        try:
+            os.fsync(descriptor)
+        finally:
+            os.close(descriptor)
 
 
 def _held(path: Path) -> int:

@@ -23,6 +23,7 @@ class Attempt:
         self._asked: StopWord | None = None
         self._kill_at = inf
         self._hung: str | None = None
+        self._is_killed = False
 
     def ask(self, word: StopWord, grace_s: float) -> None:
         """Ask the child to end; kill it if it has not after so long [s]. A cancel is never taken back."""
@@ -32,9 +33,9 @@ class Attempt:
         self._asked = word
         self._kill_at = min(self._kill_at, time.monotonic() + grace_s)
 
-    def give_up(self) -> None:
-        """Let the child be killed at the next look. May be called from any thread."""
-        self._kill_at = 0.0
+    def give_up(self, grace_s: float = 0.0) -> None:
+        """Let the child be killed unless it ends by itself within so long [s]. May be called from any thread."""
+        self._kill_at = min(self._kill_at, time.monotonic() + grace_s)
 
     def give_up_hung(self, idle_s: float) -> None:
         """Let the child be killed because it has shown no progress for so long [s]."""
@@ -49,9 +50,12 @@ class Attempt:
         Args:
             at_once: whether it is up in any case.
         """
-        if at_once or time.monotonic() >= self._kill_at:
+        if not at_once and time.monotonic() < self._kill_at:
+            return
+        if not self._is_killed:
             log.warning("Run %s: its %s is killed.", self.claim.run_id, self.child.place)
-            self.child.kill()
+        self._is_killed = True
+        self.child.kill()
 
     def outcome(self) -> Outcome:
         """Say how it ended, if the child did not say so itself. Ask only once the child has ended."""

@@ -13,13 +13,15 @@ from pathlib import Path
 from backend.store.blocks import get_blocks, read_block_list
 from backend.store.claims import Claim
 from backend.store.database import Database
-from backend.store.files import FileRow, list_files
+from backend.store.files import LOG_FILE, REPLAY_FILE, REPLAY_LIST, FileRow, list_files
 from backend.store.outcomes import CHECKPOINT_KIND
 from backend.store.settings import Settings
 from backend.store.storage import FileStorage, SharedPlace
-from worker.file_keeper import LOG_FILE, REPLAY_FILE, REPLAY_LIST, FileKeeper
+from worker.file_keeper import FileKeeper
 from worker.patience import FILES_PATIENCE_S, insist
 
+CHECKPOINT_FILES = ("checkpoint.pt", "checkpoint-previous.pt")
+"""Either of them lets a run go on."""
 ATTEMPT_FILE = ".attempt"
 """Holds the number of the attempt that has last written a run's directory."""
 
@@ -66,7 +68,8 @@ def send_log(db: Database, settings: Settings, claim: Claim) -> None:
 def _last_attempt(directory: Path) -> int:
     """Return the attempt that has last written a directory; 0 if nothing can be resumed there."""
     signed = directory / ATTEMPT_FILE
-    return int(signed.read_text()) if signed.exists() and any(directory.glob("checkpoint*.pt")) else 0
+    is_resumable = any((directory / name).is_file() for name in CHECKPOINT_FILES)
+    return int(signed.read_text()) if signed.exists() and is_resumable else 0
 
 
 def _sign(directory: Path, attempt: int) -> None:

@@ -14,16 +14,10 @@ from backend.store.blocks import EMPTY, BlockList, put_blocks, read_block_list
 from backend.store.claims import Claim
 from backend.store.database import Database
 from backend.store.errors import FilesUnavailable, NotFound
-from backend.store.files import FileRow, find_file, list_files, register_file
+from backend.store.files import LOG_FILE, REPLAY_FILE, REPLAY_LIST, FileRow, find_file, list_files, register_file
 from backend.store.outcomes import CHECKPOINT_KIND
 from backend.store.storage import FileStorage, SharedPlace, attempt_directory, checksum
 from worker.patience import FILES_PATIENCE_S, insist
-
-REPLAY_FILE = "replay.bin"
-"""What a checkpoint needs beside it in the run's directory."""
-REPLAY_LIST = "replay-blocks.json"
-"""The list of the replay file's blocks at the shared place."""
-LOG_FILE = "log.txt"
 
 log = logging.getLogger(__name__)
 

@@ -17,6 +17,7 @@ from backend.store.outcomes import CHECKPOINT_KIND
 from backend.store.progress import Progress, find_progress
 from backend.store.settings import Settings
 from backend.store.storage import FileStorage
+from sldr_core.disk import write_atomically
 from sldr_core.errors import TrainingDiverged
 from sldr_core.records import Step
 from worker.file_keeper import FileKeeper
@@ -99,9 +100,6 @@ class StoreRecorder:
             StaleFence: the run was given to another worker.
             StoreUnavailable: the place that machines share files through could not be used for minutes.
         """
-        # PyTorch comes with this import; a training that saves files has it loaded anyway.
-        from sldr_core.training import write_atomically
-
         self._writer.check()
         if kind == CHECKPOINT_KIND:
             # Another attempt goes on after the checkpoint, so what was logged before it must not be lost with this one.

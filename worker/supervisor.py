@@ -26,6 +26,8 @@ from worker.patience import insist
 from worker.presence import Presence
 from worker.words import StopWord
 
+ENDING_S = 2.0
+"""How long a child whose attempt is over may take to end by itself [s]."""
 HANG_S = 600.0
 """No step of a training takes this long; who shows no progress for so long hangs [s]."""
 
@@ -144,10 +146,10 @@ class Supervisor:
         return [attempt.claim for attempt in list(self._attempts.values())]
 
     def _lose(self, claim: Claim) -> None:
-        """Let the main loop kill a child whose run went to somebody else. Called by the heart's thread."""
+        """Let the main loop kill a child whose attempt is over, unless it just ends. Called by the heart's thread."""
         attempt = self._attempts.get(claim.run_id)
         if attempt is not None and attempt.claim.fence == claim.fence:
-            attempt.give_up()
+            attempt.give_up(ENDING_S)
 
     def _fill_slots(self, worker_id: str) -> None:
         while len(self._attempts) < self._slots and self._executor.has_room():

@@ -5,7 +5,6 @@ The replay file of a run is such a file: hundreds of megabytes, of which some ch
 
 from __future__ import annotations
 
-import errno
 import hashlib
 import json
 import os
@@ -14,7 +13,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from backend.store.storage import SharedPlace
-from sldr_core.errors import BadFile, DiskTooFull
+from sldr_core.disk import explain_full_disk
+from sldr_core.errors import BadFile
 
 BLOCK = 2**20
 """Size of a block [bytes]: small enough to follow what changed, large enough for few requests."""
@@ -101,8 +101,10 @@ def get_blocks(place: SharedPlace, found: BlockList, target: Path) -> None:
     """
     temporary = target.with_name(f".{target.name}.{os.getpid()}.tmp")
     try:
-        with temporary.open("wb") as file:
-            _reserve(file.fileno(), found.size, target)
+        with explain_full_disk(target), temporary.open("wb") as file:
+            # All the space at once: the file will be written through memory, where a full disk would kill.
+            os.posix_fallocate(file.fileno(), 0, max(found.size, 1))
+            file.truncate(found.size)
             for number, block in enumerate(found.blocks):
                 if block.path is not None:
                     file.seek(number * found.block_size)
@@ -123,14 +125,3 @@ def _get_block(place: SharedPlace, block: Block, path: str) -> bytes:
     if hashlib.sha256(content).hexdigest() != block.sha256:
         raise BadFile(f"The block {path} is damaged: its checksum is not the registered one.")
     return content
-
-
-def _reserve(descriptor: int, size: int, target: Path) -> None:
-    """Take all the disk space at once: the file will be written through memory, where a full disk would kill."""
-    try:
-        if size:
-            os.posix_fallocate(descriptor, 0, size)
-    except OSError as err:
-        if err.errno != errno.ENOSPC:
-            raise
-        raise DiskTooFull(f"{target} needs {size / 1e9:.1f} GB, which its disk has not free; free some space.") from err

@@ -6,6 +6,7 @@ SldrError
 ├── WrongState           a run cannot do this in the state it is in
 ├── Refused              something else than its state keeps a run from doing this
 ├── BadAddress           the address of the store or of the files cannot work
+├── WouldOverwrite       something lies where a backup should be made or restored
 ├── StoreTooNew          a later version of this program has used the store
 └── Unstorable           a value that no column can hold, such as text with a zero byte
 Exception
@@ -47,6 +48,10 @@ class WrongState(SldrError):
 
 class BadAddress(SldrError):
     """Report an address of the store or of the files that can never work as it is written."""
+
+
+class WouldOverwrite(SldrError):
+    """Report what a backup would replace, where it is made or where it is restored."""
 
 
 class StoreTooNew(SldrError):

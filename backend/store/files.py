@@ -12,6 +12,13 @@ from backend.store.database import Database, current_time
 from backend.store.errors import NotFound
 from backend.store.tables import run_files
 
+REPLAY_FILE = "replay.bin"
+"""What a checkpoint needs beside it in the run's directory; it is never registered itself."""
+REPLAY_LIST = "replay-blocks.json"
+"""The list of the replay file's blocks, where machines share files."""
+LOG_FILE = "log.txt"
+"""What a run's processes have said; registered where machines share files."""
+
 
 @dataclass(frozen=True)
 class FileRow:

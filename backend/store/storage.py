@@ -16,6 +16,7 @@ from pathlib import Path, PurePosixPath
 from backend.store.errors import BadAddress, FileGone, FilesUnavailable
 from backend.store.files import FileRow
 from backend.store.settings import FILES_VARIABLE, Settings
+from sldr_core.disk import explain_full_disk
 from sldr_core.errors import BadFile
 
 CHUNK = 2**20
@@ -148,7 +149,7 @@ class SharedPlace:
         temporary = target.with_name(f".{target.name}.{os.getpid()}.tmp")
         digest = hashlib.sha256()
         try:
-            with temporary.open("wb") as file:
+            with explain_full_disk(target), temporary.open("wb") as file:
                 for piece in self.read(path):
                     digest.update(piece)
                     file.write(piece)

@@ -12,12 +12,12 @@ from typing import Any
 import numpy as np
 import torch
 
-from sldr_core.config import TrainConfig, config_hash, config_to_dict
+from sldr_core.config import TrainConfig, config_from_dict, config_hash, config_to_dict
+from sldr_core.disk import write_atomically
 from sldr_core.envs import Envs
-from sldr_core.errors import BadFile
+from sldr_core.errors import BadFile, InvalidConfig
 from sldr_core.nets.files import load_tensors, one_line, save_tensors
 from sldr_core.training.build import Parts
-from sldr_core.training.directory import write_atomically
 from sldr_core.training.files import (
     CHECKPOINT_FILE,
     DAMAGED_CHECKPOINT_FILE,
@@ -136,7 +136,7 @@ def read_checkpoint(path: Path, config: TrainConfig) -> dict[str, Any]:
         BadFile: the file is corrupt, lacks a part, or has lost its replay file.
     """
     content = load_tensors(path, KIND)
-    if content.get("config_hash") != config_hash(config):
+    if not _is_of(content, config):
         raise ForeignCheckpoint(
             f"{path} was made by another config than this run's; use another directory, or remove it to start anew."
         )
@@ -179,6 +179,14 @@ def _fall_back(kept: Kept, newest: Path, problem: BadFile | None) -> None:
         # Under its own name it would be taken for the previous checkpoint when the next one is written.
         newest.rename(newest.with_name(DAMAGED_CHECKPOINT_FILE))
     log.warning("%s Going on from %s, after cycle %d.", reason, kept.path, kept.content["counters"]["cycle"])
+
+
+def _is_of(content: dict[str, Any], config: TrainConfig) -> bool:
+    """Tell whether a checkpoint is of a config: hashes would differ once a setting is added."""
+    try:
+        return config_from_dict(content["config"]) == config
+    except (InvalidConfig, KeyError):
+        return False
 
 
 def _pack_rng(rng: np.random.Generator) -> str:

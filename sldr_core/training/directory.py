@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
 
-from sldr_core.disk import explain_full_disk
+from sldr_core.disk import explain_full_disk, sync, write_atomically
 from sldr_core.errors import DirectoryInUse
 from sldr_core.records import Step
 from sldr_core.training.files import METRICS_FILE
@@ -25,7 +25,6 @@ class DirectoryRecorder:
 
     def __init__(self, directory: Path) -> None:
         directory.mkdir(parents=True, exist_ok=True)
-        remove_leftovers(directory)
         self._directory = directory
         self._stop: StopReason | None = None
         self._logged = False
@@ -55,7 +54,7 @@ class DirectoryRecorder:
             DiskTooFull: there is no room for it.
         """
         # A checkpoint must never be on the disk before the lines that it says are logged.
-        _sync(self._directory / METRICS_FILE)
+        sync(self._directory / METRICS_FILE)
         return write_atomically(self._directory / name, write)
 
     def stop_requested(self) -> StopReason | None:
@@ -67,37 +66,11 @@ class DirectoryRecorder:
         self._stop = reason
 
 
-def write_atomically(path: Path, write: Callable[[Path], None]) -> Path:
-    """Let `write` fill a temporary file beside `path`, sync it, and rename it to `path`.
-
-    A reader sees the old file or the new one, whenever this process or the machine dies.
-
-    Raises:
-        DiskTooFull: there is no room for it; the old file is left as it was.
-    """
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
-    try:
-        with explain_full_disk(path):
-            write(temporary)
-            _sync(temporary)
-            temporary.rename(path)
-    finally:
-        temporary.unlink(missing_ok=True)
-    _sync(path.parent)
-    return path
-
-
-def remove_leftovers(directory: Path) -> None:
-    """Remove the temporary files of processes that were killed while they wrote; those of living ones stay."""
-    for path in directory.glob(".*.tmp"):
-        writer = re.fullmatch(r"\..+\.(\d+)\.tmp", path.name)
-        if writer and not _is_another_living(int(writer[1])):
-            path.unlink(missing_ok=True)
-
-
 @contextmanager
 def alone_in(directory: Path) -> Iterator[None]:
-    """Keep every other process from training in a directory; a process that is killed lets go of it.
+    """Keep every other process from training in a directory, and remove what killed ones left half written there.
+
+    A process that is killed lets go of it.
 
     Raises:
         DirectoryInUse: another process trains there.
@@ -107,7 +80,16 @@ def alone_in(directory: Path) -> Iterator[None]:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError as err:
             raise DirectoryInUse(f"Another process trains in {directory}; wait for it, or use another one.") from err
+        _remove_leftovers(directory)
         yield
+
+
+def _remove_leftovers(directory: Path) -> None:
+    """Remove the temporary files of processes that were killed while they wrote; those of living ones stay."""
+    for path in directory.glob(".*.tmp"):
+        writer = re.fullmatch(r"\..+\.(\d+)\.tmp", path.name)
+        if writer and not _is_another_living(int(writer[1])):
+            path.unlink(missing_ok=True)
 
 
 def _is_another_living(pid: int) -> bool:
@@ -118,16 +100,6 @@ def _is_another_living(pid: int) -> bool:
     except PermissionError:
         pass
     return pid != os.getpid()
-
-
-def _sync(path: Path) -> None:
-    """Bring a file, or the names in a directory, to the disk, if it is there."""
-    if path.exists():
-        descriptor = os.open(path, os.O_RDONLY)
-        try:
-            os.fsync(descriptor)
-        finally:
-            os.close(descriptor)
 
 
 def _drop_from(path: Path, cycle: int) -> None:

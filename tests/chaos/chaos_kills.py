@@ -29,6 +29,8 @@ from backend.store.states import ENDED
 LOOK_S = 0.2
 """Between two looks at store and processes [s]."""
 FAKE_CYCLES = 20
+RUNS_LEFT = 2
+"""The last kill should land before fewer runs than this are left."""
 KINDS = ("child", "supervisor", "API")
 
 
@@ -95,19 +97,24 @@ def _disturb(
     """Kill until enough have been killed, and wait until every run has ended."""
     drawn = random.Random(order.seed)
     kills: dict[str, int] = dict.fromkeys(KINDS, 0)
+    deck: list[str] = []
     give_up_at = time.monotonic() + order.patience_s
     kill_at = time.monotonic() + order.gap_s
     while time.monotonic() < give_up_at:
         service.keep_alive()
         witness.look()
-        if _all_have_ended(db, witness.run_ids):
+        ended = sum(run.state in ENDED for run in get_runs(db, witness.run_ids))
+        if ended == len(witness.run_ids):
             break
-        if time.monotonic() >= kill_at and sum(kills.values()) < order.kills:
-            kind = drawn.choice(KINDS)
-            if kill(_victims(service, kind), drawn.choice):
-                kills[kind] += 1
-                say(f"kill {sum(kills.values())}: {kind}")
-            kill_at = time.monotonic() + drawn.uniform(0.0, 2.0 * order.gap_s)
+        landed = sum(kills.values())
+        # Whatever the gap, the last kill has to land before the last runs are through.
+        is_late = landed * max(1, len(witness.run_ids) - RUNS_LEFT) < ended * order.kills
+        if landed < order.kills and (is_late or time.monotonic() >= kill_at):
+            deck = deck or drawn.sample(KINDS, len(KINDS))
+            if kill(_victims(service, deck[-1]), drawn.choice):
+                say(f"kill {landed + 1}: {deck[-1]}")
+                kills[deck.pop()] += 1
+                kill_at = time.monotonic() + drawn.uniform(0.0, 2.0 * order.gap_s)
         time.sleep(LOOK_S)
     return kills
 
@@ -120,10 +127,6 @@ def _victims(service: Service, kind: str) -> list[int]:
             return service.living_workers()
         case _:
             return service.living_apis()
-
-
-def _all_have_ended(db: Database, run_ids: Sequence[str]) -> bool:
-    return all(run.state in ENDED for run in get_runs(db, run_ids))
 
 
 def _launch(db: Database, order: Attack) -> list[str]:

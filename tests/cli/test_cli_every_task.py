@@ -14,7 +14,13 @@ from worker.cli import main
 OF_EACH_KIND = {"FetchStack2", "HandPenFull"}
 """Trained in the usual run, with the objects that they need; the slow one trains all."""
 
-SMALL = ("loop.epochs=1", "loop.episodes_per_cycle=2", "loop.test_episodes=2", "loop.batch_size=16")
+SMALL = (
+    "loop.epochs=1",
+    "loop.cycles_per_epoch=1",
+    "loop.episodes_per_cycle=2",
+    "loop.test_episodes=2",
+    "loop.batch_size=16",
+)
 EPISODES = 3
 PRINTED = re.compile(r"\d+\.\d% success: \d of 3 episodes, 95 % interval \d+\.\d% to \d+\.\d%\n")
 

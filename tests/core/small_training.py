@@ -71,6 +71,11 @@ class CrashingRecorder(DirectoryRecorder):
             raise ConnectionAbortedError
 
 
+def short_config() -> TrainConfig:
+    """Return 22 cycles: two checkpoints before the last one."""
+    return tiny_config(epochs=2, cycles_per_epoch=11)
+
+
 def long_config() -> TrainConfig:
     """Return 40 cycles: three checkpoints before the last one, and a replay file that begins anew."""
     return tiny_config(epochs=2, cycles_per_epoch=20)

@@ -14,11 +14,12 @@ from small_training import (
     contents_of,
     long_config,
     run,
+    short_config,
     tiny_config,
 )
 
 from sldr_core.errors import BadFile, DirectoryInUse
-from sldr_core.training import DirectoryRecorder, train
+from sldr_core.training import train
 from sldr_core.training.directory import alone_in
 
 DAMAGES = {
@@ -38,19 +39,19 @@ def cycle_of(path: Path) -> int:
 @pytest.fixture(scope="module")
 def uninterrupted(tmp_path_factory: pytest.TempPathFactory) -> Path:
     directory = tmp_path_factory.mktemp("uninterrupted")
-    run(long_config(), directory)
+    run(short_config(), directory)
     return directory
 
 
 @pytest.fixture
 def stopped(tmp_path: Path) -> Path:
-    """Return the directory of a training that was stopped after cycle 33, with checkpoints of cycles 30 and 33."""
-    train(long_config(), StoppingRecorder(tmp_path, 33, "shutdown"))
+    """Return the directory of a training that was stopped after cycle 13, with checkpoints of cycles 10 and 13."""
+    train(short_config(), StoppingRecorder(tmp_path, 13, "shutdown"))
     return tmp_path
 
 
 def test_the_previous_checkpoint_is_kept_beside_the_newest(stopped: Path) -> None:
-    assert (cycle_of(stopped / "checkpoint.pt"), cycle_of(stopped / "checkpoint-previous.pt")) == (33, 30)
+    assert (cycle_of(stopped / "checkpoint.pt"), cycle_of(stopped / "checkpoint-previous.pt")) == (13, 10)
 
 
 @pytest.mark.parametrize("damage", DAMAGES)
@@ -61,39 +62,41 @@ def test_a_training_goes_on_from_the_previous_checkpoint_to_the_same_bits(
     DAMAGES[damage](newest)
     damaged = newest.read_bytes() if newest.exists() else None
 
-    run(long_config(), stopped)
+    run(short_config(), stopped)
 
     (told,) = [record.getMessage() for record in caplog.records if record.levelno == logging.WARNING]
     assert f"{newest}" in told
-    assert told.endswith(f"Going on from {stopped / 'checkpoint-previous.pt'}, after cycle 30.")
+    assert told.endswith(f"Going on from {stopped / 'checkpoint-previous.pt'}, after cycle 10.")
     assert_same_training(stopped, uninterrupted)
     if damaged is not None:
         assert (stopped / "checkpoint-damaged.pt").read_bytes() == damaged
 
 
 def test_the_replay_file_serves_the_previous_checkpoint_until_the_last_moment(
-    tmp_path: Path, uninterrupted: Path
+    tmp_path: Path,
 ) -> None:
+    run(long_config(), tmp_path / "whole")
+    killed = tmp_path / "killed"
     with pytest.raises(ConnectionAbortedError):
-        train(long_config(), CrashingRecorder(tmp_path, 39))
-    assert cycle_of(tmp_path / "checkpoint-previous.pt") == 20
-    (tmp_path / "checkpoint.pt").write_bytes(b"damaged")
+        train(long_config(), CrashingRecorder(killed, 39))
+    assert cycle_of(killed / "checkpoint-previous.pt") == 20
+    (killed / "checkpoint.pt").write_bytes(b"damaged")
 
-    run(long_config(), tmp_path)
+    run(long_config(), killed)
 
-    assert_same_training(tmp_path, uninterrupted)
+    assert_same_training(killed, tmp_path / "whole")
 
 
 def test_a_damaged_checkpoint_never_takes_the_place_of_the_previous_one(stopped: Path) -> None:
     (stopped / "checkpoint.pt").write_bytes(b"damaged")
 
-    train(long_config(), StoppingRecorder(stopped, 1, "shutdown"))
+    train(short_config(), StoppingRecorder(stopped, 1, "shutdown"))
 
-    assert (cycle_of(stopped / "checkpoint.pt"), cycle_of(stopped / "checkpoint-previous.pt")) == (31, 30)
+    assert (cycle_of(stopped / "checkpoint.pt"), cycle_of(stopped / "checkpoint-previous.pt")) == (11, 10)
 
 
 def test_a_whole_checkpoint_is_used_without_a_word(stopped: Path, caplog: pytest.LogCaptureFixture) -> None:
-    run(long_config(), stopped)
+    run(short_config(), stopped)
 
     assert caplog.records == []
 
@@ -104,13 +107,23 @@ def test_two_damaged_checkpoints_are_told_and_nothing_is_touched(stopped: Path) 
     before = contents_of(stopped)
 
     with pytest.raises(BadFile, match=r"checkpoint\.pt is corrupt or no file of ours"):
-        run(long_config(), stopped)
+        run(short_config(), stopped)
 
     assert contents_of(stopped) == before
 
 
+def test_a_checkpoint_from_before_a_setting_was_added_is_gone_on_from(stopped: Path, uninterrupted: Path) -> None:
+    content = torch.load(stopped / "checkpoint.pt", weights_only=True)
+    assert content["config"]["agent"].pop("lowest_return") == 0.0, "it has to have its default"
+    torch.save({**content, "config_hash": "0" * 16}, stopped / "checkpoint.pt")
+
+    run(short_config(), stopped)
+
+    assert_same_training(stopped, uninterrupted)
+
+
 def test_another_config_is_refused_whatever_the_previous_checkpoint_is(stopped: Path) -> None:
-    other = tiny_config(epochs=2, cycles_per_epoch=20, updates_per_cycle=3)
+    other = tiny_config(epochs=2, cycles_per_epoch=11, updates_per_cycle=3)
     before = contents_of(stopped)
 
     with pytest.raises(BadFile, match="was made by another config"):
@@ -125,13 +138,12 @@ def test_temporary_files_of_killed_processes_are_removed_and_those_of_living_one
     for name in names:
         (tmp_path / name).touch()
 
-    DirectoryRecorder(tmp_path)
-
-    assert sorted(path.name for path in tmp_path.iterdir()) == sorted(names[2:])
+    with alone_in(tmp_path):
+        assert sorted(path.name for path in tmp_path.iterdir()) == sorted([*names[2:], ".training.lock"])
 
 
 def test_two_trainings_never_write_one_directory(tmp_path: Path) -> None:
     with alone_in(tmp_path), pytest.raises(DirectoryInUse, match="Another process trains in"):
-        run(long_config(), tmp_path)
+        run(short_config(), tmp_path)
 
-    assert run(long_config(), tmp_path).finished
+    assert run(short_config(), tmp_path).finished

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from small_training import assert_same_training, long_config, run, save_untrained_model
+from small_training import assert_same_training, run, save_untrained_model, short_config
 
 from sldr_core.config import TrainConfig, config_to_dict
 from sldr_core.presets import make_config
@@ -31,16 +31,16 @@ KILLS = 5
 SMALLER: dict[str, Any] = {
     "loop": {
         "epochs": 2,
-        "cycles_per_epoch": 7,
-        "episodes_per_cycle": 2,
+        "cycles_per_epoch": 6,
+        "episodes_per_cycle": 1,
         "updates_per_cycle": 2,
         "updates_per_sync": 2,
-        "test_episodes": 2,
+        "test_episodes": 1,
     },
     "agent": {"hidden_sizes": [16, 16]},
     "replay": {"capacity": 1000},
 }
-"""Laid over the smoke preset in the usual run: 14 cycles, a checkpoint after the tenth."""
+"""Laid over the smoke preset in the usual run: 12 cycles, a checkpoint after the tenth."""
 
 FULL: dict[str, Any] = {"loop": {"epochs": 3, "cycles_per_epoch": 10}, "replay": {"capacity": 1000}}
 """Laid over the smoke preset: 30 cycles, a checkpoint every ten, and a replay file that begins anew."""
@@ -100,20 +100,20 @@ def dice() -> random.Random:
 @pytest.fixture(scope="module")
 def uninterrupted(tmp_path_factory: pytest.TempPathFactory) -> Path:
     directory = tmp_path_factory.mktemp("uninterrupted")
-    run(long_config(), directory)
+    run(short_config(), directory)
     return directory
 
 
 POINTS: dict[str, tuple[str, int, int]] = {
     "in-the-warm-up": ("step", 1, STEPS),
-    "while-episodes-are-collected": ("step", STEPS + 1, 30 * STEPS),
-    "while-learning": ("update", 1, 70),
+    "while-episodes-are-collected": ("step", STEPS + 1, 20 * STEPS),
+    "while-learning": ("update", 1, 40),
     "in-the-middle-of-a-stored-episode": ("store", 1, 100),
-    "in-the-middle-of-a-line-of-metrics": ("line", 1, 35),
-    "in-the-middle-of-a-checkpoint": ("half:checkpoint.pt", 1, 4),
-    "in-the-middle-of-the-previous-checkpoint": ("half:checkpoint-previous.pt", 1, 3),
-    "before-a-checkpoint-has-its-name": ("before:checkpoint.pt", 1, 4),
-    "when-a-checkpoint-has-its-name": ("after:checkpoint.pt", 1, 3),
+    "in-the-middle-of-a-line-of-metrics": ("line", 1, 20),
+    "in-the-middle-of-a-checkpoint": ("half:checkpoint.pt", 1, 3),
+    "in-the-middle-of-the-previous-checkpoint": ("half:checkpoint-previous.pt", 1, 2),
+    "before-a-checkpoint-has-its-name": ("before:checkpoint.pt", 1, 3),
+    "when-a-checkpoint-has-its-name": ("after:checkpoint.pt", 1, 2),
     "in-the-middle-of-a-policy": ("half:policy-newest.pt", 1, 2),
     "in-the-middle-of-a-locomotion-model": ("half:locomotion.pt", 1, 1),
 }
@@ -139,9 +139,9 @@ def test_a_training_that_is_killed_there_ends_with_the_same_bits(
     number = dice.randint(least, most)
     print(f"Killed at {kind} number {number}.")
 
-    forked.start(long_config(), tmp_path, kill=(kind, number))
+    forked.start(short_config(), tmp_path, kill=(kind, number))
     status = forked.wait()
-    run(long_config(), tmp_path)
+    run(short_config(), tmp_path)
 
     assert status == -signal.SIGKILL
     assert_same_training(tmp_path, uninterrupted)

@@ -20,7 +20,9 @@ from worker.recorder import StoreRecorder
 from worker.words import StopWord
 
 CYCLE_S = 0.02
-LAST_CYCLE = {"counts": 5, "counts-far": 100, "strolls": 200, "lasts": 100_000}
+LAST_CYCLE = {"counts": 5, "counts-far": 100, "strolls": 200, "lasts": 100_000, "saves": 100_000}
+SAVE_CYCLES = 5
+"""`saves` writes a checkpoint every so many cycles."""
 
 
 @dataclass(frozen=True)
@@ -32,6 +34,30 @@ class Result:
 
 def step(cycle: int) -> Step:
     return Step(cycle, epoch=1, env_steps=cycle, episodes=cycle, updates=cycle, wall_seconds=cycle * CYCLE_S)
+
+
+def save(recorder: StoreRecorder, last_cycle: int) -> Result:
+    """Count cycles, each leaving a byte in the replay file, with checkpoints as a training has them."""
+    checkpoint, replay = recorder.directory / "checkpoint.pt", recorder.directory / "replay.bin"
+    cycle = int(checkpoint.read_text()) if checkpoint.exists() else 0
+    assert cycle == 0 or replay.stat().st_size >= cycle, "the replay file is older than its checkpoint"
+    while cycle < last_cycle:
+        cycle += 1
+        time.sleep(CYCLE_S)
+        with replay.open("r+b" if replay.exists() else "wb") as file:
+            file.seek(cycle - 1)
+            file.write(b"e")
+        recorder.log(step(cycle), {"test/success_rate": 0.5})
+        stop = recorder.stop_requested()
+        if stop is not None or cycle % SAVE_CYCLES == 0:
+            recorder.save_file("checkpoint.pt", "checkpoint", lambda path, done=cycle: write_text(path, str(done)))
+        if stop is not None:
+            return Result(stopped=stop)
+    return Result()
+
+
+def write_text(path: Path, text: str) -> None:
+    path.write_text(text)
 
 
 def count(recorder: StoreRecorder, last_cycle: int) -> Result:
@@ -58,6 +84,8 @@ def train(config: TrainConfig, recorder: StoreRecorder, locomotion_models: Seque
     match behaviour:
         case "counts" | "counts-far" | "strolls" | "lasts":
             return count(recorder, LAST_CYCLE[behaviour])
+        case "saves":
+            return save(recorder, LAST_CYCLE[behaviour])
         case "is-deaf":
             time.sleep(3600.0)
         case "hangs-once" if not (recorder.directory / "hung").exists():

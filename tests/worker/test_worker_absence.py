@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import os
 import signal
+import sqlite3
+import time
+from contextlib import closing
 
 import pytest
 from worker_cases import is_alive, queued_run, wait_for_training, wait_until, worker_process
@@ -19,6 +22,31 @@ from worker.presence import Presence
 SHORT_LEASE_S = 3.0
 
 
+def stop(settings: Settings, *pids: int) -> None:
+    """Stop processes, at a moment when none of them keeps all others from writing to SQLite."""
+    while True:
+        for pid in pids:
+            os.kill(pid, signal.SIGSTOP)
+        if not is_locked(settings):
+            return
+        for pid in pids:
+            os.kill(pid, signal.SIGCONT)
+        time.sleep(0.05)
+
+
+def is_locked(settings: Settings) -> bool:
+    """Tell whether somebody holds the lock for writing, and does not let go of it."""
+    if not settings.database_url.startswith("sqlite"):
+        return False
+    with closing(sqlite3.connect(settings.home / "sldr.db", timeout=1.0, isolation_level=None)) as connection:
+        try:
+            connection.execute("BEGIN IMMEDIATE")
+        except sqlite3.OperationalError:
+            return True
+        connection.execute("ROLLBACK")
+    return False
+
+
 def points(db: Database, run_id: str, attempt: int) -> list[int]:
     columns = read_metrics(db, run_id, superseded=True)
     return [cycle for cycle, by in zip(columns.step, columns.attempt, strict=True) if by == attempt]
@@ -30,8 +58,7 @@ def test_a_worker_stopped_past_its_lease_ends_its_child_and_none_of_its_late_wri
     run_id = queued_run(db)
     with worker_process(settings, "lasts", SHORT_LEASE_S) as stopped:
         child = wait_for_training(db, settings, run_id)
-        os.kill(stopped.pid, signal.SIGSTOP)
-        os.kill(child, signal.SIGSTOP)
+        stop(settings, stopped.pid, child)
         try:
             with worker_process(settings, "lasts", SHORT_LEASE_S):
                 wait_until(lambda: len(list_attempts(db, run_id)) == 2)
@@ -53,7 +80,7 @@ def test_a_worker_that_wakes_up_kills_a_child_that_does_not_notice(db: Database,
     run_id = queued_run(db)
     with worker_process(settings, "is-deaf", SHORT_LEASE_S) as stopped:
         child = wait_for_training(db, settings, run_id)
-        os.kill(stopped.pid, signal.SIGSTOP)
+        stop(settings, stopped.pid)
         try:
             with worker_process(settings, "counts", SHORT_LEASE_S):
                 wait_until(lambda: "lost" in [event.event for event in list_events(db, run_id)])

@@ -10,21 +10,22 @@ from typing import Any
 import pytest
 import torch
 
+from backend.store import files
 from backend.store.claims import Claim
 from backend.store.database import Database
 from backend.store.errors import FilesUnavailable, StaleFence
 from backend.store.files import find_file, list_files
 from backend.store.launches import LaunchOrder, launch
 from backend.store.metrics import read_metrics
-from backend.store.outcomes import HandedBack, Succeeded
+from backend.store.outcomes import CHECKPOINT_KIND, HandedBack, Succeeded
 from backend.store.queue import claim, finish
 from backend.store.settings import Settings
 from backend.store.storage import FileStorage, SharedPlace
 from sldr_core.records import Step
 from sldr_core.training import DirectoryRecorder, train
 from sldr_core.training.checkpoint import KIND
-from sldr_core.training.files import CHECKPOINT_FILE, NEWEST_POLICY_FILE, REPLAY_FILE
-from worker.claimed_files import bring_claimed_run, send_log
+from sldr_core.training.files import CHECKPOINT_FILE, NEWEST_POLICY_FILE, PREVIOUS_CHECKPOINT_FILE, REPLAY_FILE
+from worker.claimed_files import CHECKPOINT_FILES, bring_claimed_run, send_log
 from worker.file_keeper import FileKeeper
 from worker.locomotion_files import find_locomotion_models
 from worker.recorder import StoreRecorder
@@ -117,6 +118,12 @@ def _tensors_in(value: Any) -> Iterator[torch.Tensor]:
 def shared_paths(settings: Settings, run_id: str) -> set[str]:
     assert settings.files_url is not None
     return set(SharedPlace(settings.files_url).paths_below(f"runs/{run_id}"))
+
+
+def test_the_worker_knows_the_files_that_a_training_resumes_from() -> None:
+    assert files.REPLAY_FILE == REPLAY_FILE
+    assert (CHECKPOINT_FILE, PREVIOUS_CHECKPOINT_FILE) == CHECKPOINT_FILES
+    assert KIND == CHECKPOINT_KIND
 
 
 def test_a_run_whose_machine_died_ends_elsewhere_with_the_same_bits(

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from importlib import import_module
 from importlib.metadata import version
 
+from backend.store.errors import StoreUnavailable
 from sldr_core.errors import SldrError, UnknownName
 
 COMMANDS = {
@@ -17,6 +18,8 @@ COMMANDS = {
     "train": "Train here and now, without page and queue.",
     "evaluate": "Measure the success of a trained policy.",
     "render": "Draw the picture of a task.",
+    "backup": "Copy all runs and their files to one place, while everything runs.",
+    "restore": "Bring back what backup has copied.",
     "list": "List tasks, methods or presets.",
 }
 
@@ -42,6 +45,8 @@ def _run(command: str, arguments: list[str]) -> int:
             raise UnknownName("command", command, COMMANDS)
         return import_module(f"worker.cli.commands.{command}").main(arguments)
     except SldrError as error:
+        return _fail(str(error))
+    except StoreUnavailable as error:
         return _fail(str(error))
     except OSError as error:
         if error.filename is None:

@@ -19,7 +19,6 @@ from backend.store.database import Database
 from backend.store.errors import NotFound
 from backend.store.storage import FileStorage
 
-LOG_FILE = "log.txt"
 LOG_PIECE = 64 * 1024
 """Most of a log that one answer holds [bytes]."""
 
@@ -39,7 +38,7 @@ def get_run_log(
 ) -> LogTail:
     """Return the end of a run's log, or what was written after an offset."""
     runs.get_run(store, run_id)
-    return read_log(_find_log(store, storage, settings.run_directory(run_id) / LOG_FILE), after)
+    return read_log(_find_log(store, storage, settings.run_directory(run_id) / files.LOG_FILE), after)
 
 
 @router.get("/files", responses=problem_responses(404, 422))
@@ -97,7 +96,7 @@ def _find_log(store: Database, storage: FileStorage, here: Path) -> Path:
     if storage.shared is None:
         return here
     try:
-        row = files.find_file(store, here.parent.name, LOG_FILE)
+        row = files.find_file(store, here.parent.name, files.LOG_FILE)
     except NotFound:
         return here
     is_written_here = here.is_file() and here.stat().st_mtime >= row.created_at.timestamp()

@@ -189,8 +189,11 @@ function kindOf(type: string | undefined): Setting['kind'] {
   return kinds[type ?? ''] ?? 'text';
 }
 
+/** Groups whose names are initials. */
+const SHORT_NAMES: readonly string[] = ['sldr', 'rnd'];
+
 function formatGroup(name: string): string {
-  return name === 'sldr' ? 'SLDR' : formatName(name);
+  return SHORT_NAMES.includes(name) ? name.toUpperCase() : formatName(name);
 }
 
 function parseNumber(setting: Setting, text: string, whole: boolean): number {

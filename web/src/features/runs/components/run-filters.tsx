@@ -13,10 +13,10 @@ import classes from './runs.module.css';
 const TYPING_REST_MS = 250;
 
 const SORT_NAMES: Record<SortKey, string> = {
-  launched: 'Launched',
-  state: 'State',
-  success: 'Success',
-  task: 'Task',
+  launched: 'By launch',
+  state: 'By state',
+  success: 'By success',
+  task: 'By task',
 };
 
 interface Props {
@@ -88,7 +88,7 @@ function SortField({ search, onChange }: Pick<Props, 'search' | 'onChange'>) {
       size="xs"
       className={classes.filter}
       aria-label="Sort by"
-      data={Object.entries(SORT_NAMES).map(([value, label]) => ({ value, label: `By ${label.toLowerCase()}` }))}
+      data={Object.entries(SORT_NAMES).map(([value, label]) => ({ value, label }))}
       value={sort}
       onChange={(key) => key && onChange(searchOf({ sort: key as SortKey, descending: SORT_KEYS[key as SortKey] }))}
     />

@@ -83,7 +83,7 @@ function Memory({ worker: { memory_total: total, memory_used: used } }: { worker
 function Runs({ worker: { running, alive, draining } }: { worker: Worker }) {
   if (running.length === 0) {
     const idle = draining ? 'It trains nothing and takes nothing: it can be ended.' : 'It trains nothing just now.';
-    return <p className={`faint ${classes.idle}`}>{alive ? idle : 'Its runs went back to the queue.'}</p>;
+    return <p className={`faint ${classes.idle}`}>{alive ? idle : 'What it trained goes back to the queue.'}</p>;
   }
   return (
     <ul className={classes.runs} aria-label="Runs that it trains">
