@@ -34,6 +34,7 @@ from worker.locomotion_files import find_locomotion_models
 from worker.mortality import end_with_parent
 from worker.patience import insist
 from worker.recorder import Curves, StoreRecorder, WriteCurves
+from worker.sign_of_life import showing_life
 from worker.words import STOP_WORDS, StopWord
 
 LOCK_FILE = ".lock"
@@ -142,7 +143,8 @@ def _attempt(
         with _hold_directory(settings.run_directory(claim.run_id)):
             # Only now is it sure that nobody else writes there; an attempt that is over must not begin.
             insist(lambda: note_host(db, claim, socket.gethostname()))
-            bring_claimed_run(db, settings, claim)
+            with showing_life(db, claim):
+                bring_claimed_run(db, settings, claim)
             log.info("Attempt %d of run %s begins in process %d.", claim.attempt, claim.run_id, os.getpid())
             models = insist(lambda: find_locomotion_models(db, settings, claim))
             with StoreRecorder(db, settings, claim, requests.newest, write_curves) as recorder:

@@ -23,6 +23,7 @@ from sldr_core.records import Step
 from worker.file_keeper import FileKeeper
 from worker.metric_writer import MetricWriter
 from worker.patience import insist
+from worker.sign_of_life import showing_life
 from worker.words import StopWord
 
 Curves = Mapping[str, Sequence[float | None]]
@@ -105,7 +106,8 @@ class StoreRecorder:
             # Another attempt goes on after the checkpoint, so what was logged before it must not be lost with this one.
             self._writer.flush()
         path = write_atomically(self._directory / name, write)
-        self._keeper.keep(name, kind, path)
+        with showing_life(self._db, self._claim):
+            self._keeper.keep(name, kind, path)
         self._writer.check()
         return path
 

@@ -11,9 +11,7 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from types import ModuleType
 
-import sldr_core
 from sldr_core.config import TrainConfig
 from sldr_core.records import Step
 from worker.child import run_child
@@ -70,16 +68,5 @@ def _write(path: Path, state: str) -> None:
     path.write_text(state)
 
 
-def do_without_pytorch() -> None:
-    """Let `sldr_core.training` be what writes files safely and nothing else: PyTorch takes seconds to import."""
-    package = ModuleType("sldr_core.training")
-    package.__path__ = [str(Path(sldr_core.__path__[0]) / "training")]
-    sys.modules[package.__name__] = package
-    from sldr_core.training.directory import write_atomically
-
-    package.__dict__["write_atomically"] = write_atomically
-
-
 if __name__ == "__main__":
-    do_without_pytorch()
     sys.exit(run_child(train))

@@ -11,6 +11,7 @@ from chaos_evidence import Witness, complaints
 from chaos_kills import Attack, attack
 from chaos_table import BEGIN, END, Finding, as_text, write_results
 from chaos_training import METRIC, expected_curve
+from store_engines import ENGINES
 
 from backend.store.claims import Claim
 from backend.store.database import open_database
@@ -18,16 +19,11 @@ from backend.store.launches import LaunchOrder, launch
 from backend.store.metrics import MetricPoint, append_metrics
 from backend.store.outcomes import Lost, Succeeded
 from backend.store.queue import claim, finish
-from backend.store.settings import Settings, sqlite_url
+from backend.store.settings import Settings
 from backend.store.tables import metric_values
 from sldr_core.records import Step
 
 SEED = 5
-
-
-@pytest.fixture
-def settings(tmp_path: Path) -> Settings:
-    return Settings(home=tmp_path, database_url=sqlite_url(tmp_path))
 
 
 def test_runs_end_as_if_nobody_had_killed_anything(settings: Settings) -> None:
@@ -48,6 +44,7 @@ def test_a_crowd_at_one_store_locks_nobody_out(settings: Settings) -> None:
     assert [complaint for complaint in finding.complaints if "No run" not in complaint] == []
 
 
+@pytest.mark.parametrize("engine", ENGINES, scope="session")
 def test_each_run_of_a_long_queue_is_claimed_once(settings: Settings) -> None:
     finding = measure_claims(settings, queued=300, claimers=3, say=print)
 

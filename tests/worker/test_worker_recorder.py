@@ -30,6 +30,7 @@ from sldr_core.records import Step
 from worker.locomotion_files import find_locomotion_models
 from worker.metric_writer import MetricWriter
 from worker.recorder import Curves, StoreRecorder, WriteCurves, read_curves
+from worker.sign_of_life import showing_life
 
 STEP = Step(cycle=1, epoch=1, env_steps=200, episodes=4, updates=4, wall_seconds=0.5)
 MODEL = b"weights"
@@ -221,6 +222,34 @@ def test_a_training_that_goes_on_without_logging_shows_that_it_does(db: Database
     writer.close()
 
     assert progress_at(db, locomotion_claim) > before
+
+
+def test_an_attempt_that_moves_files_for_long_shows_that_it_goes_on(db: Database, locomotion_claim: Claim) -> None:
+    before = progress_at(db, locomotion_claim)
+    with showing_life(db, locomotion_claim, every_s=0.01):
+        give_up_at = time.monotonic() + 30.0
+        while progress_at(db, locomotion_claim) == before and time.monotonic() < give_up_at:
+            time.sleep(0.01)
+    after = progress_at(db, locomotion_claim)
+    time.sleep(0.1)
+
+    assert after > before
+    assert progress_at(db, locomotion_claim) == after
+
+
+def test_an_attempt_that_moves_files_for_ever_does_not(db: Database, locomotion_claim: Claim) -> None:
+    before = progress_at(db, locomotion_claim)
+    with showing_life(db, locomotion_claim, every_s=0.01, longest_s=0.0):
+        time.sleep(0.1)
+
+    assert progress_at(db, locomotion_claim) == before
+
+
+def test_an_attempt_that_is_over_moves_its_files_in_peace(db: Database, locomotion_claim: Claim) -> None:
+    finish(db, locomotion_claim, HandedBack("Its worker was asked to end."))
+
+    with showing_life(db, locomotion_claim, every_s=0.01):
+        time.sleep(0.1)
 
 
 def test_a_training_that_hangs_shows_no_sign_of_going_on(db: Database, locomotion_claim: Claim) -> None:
