@@ -77,7 +77,7 @@ def _compare(selection: Selection, view: CurveView, version: str) -> CurveCompar
         runs=len(selection.runs) - len(grouping.left_out),
         unread=selection.unread,
         every=read.every,
-        left_out=[*grouping.left_out, *_silent_runs(grouping, read.curves, view.metric)],
+        left_out=[*grouping.left_out, *silent_runs(grouping, read.curves, view.metric)],
     )
 
 
@@ -143,7 +143,8 @@ def to_numbers(values: NDArray[np.float64]) -> Numbers:
     return [None if value != value else value for value in values.tolist()]
 
 
-def _silent_runs(grouping: Grouping, points: Mapping[str, Points], metric: str) -> list[LeftOut]:
+def silent_runs(grouping: Grouping, points: Mapping[str, Points], metric: str) -> list[LeftOut]:
+    """Return the runs of a grouping that have nothing to show."""
     return [
         LeftOut(run_id=run.id, task=task, group=key, seed=run.seed, reason=f"It has not logged {metric} yet.")
         for (task, key), runs in grouping.cells.items()

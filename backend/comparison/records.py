@@ -267,8 +267,6 @@ class TableColumn:
     """One column of a plain table."""
 
     title: str
-    unit: str
-    """Empty if it has none."""
 
 
 @dataclass(frozen=True, config=RECORD)

@@ -9,9 +9,10 @@ from fastapi import APIRouter, Query
 from backend.api.compare_questions import Choice, View
 from backend.api.dependencies import Memory, Store
 from backend.api.errors import problem_responses
+from backend.comparison.best import compare_best
 from backend.comparison.configs import compare_configs
 from backend.comparison.curves import compare_curves
-from backend.comparison.records import ConfigComparison, CurveComparison, MetricNames
+from backend.comparison.records import BestModels, ConfigComparison, CurveComparison, MetricNames
 from backend.comparison.selection import select_runs
 from backend.store.curves import list_metric_names
 
@@ -25,6 +26,12 @@ router = APIRouter(prefix="/api/compare", tags=["compare"])
 def get_curves(choice: Choice, view: View, store: Store, memory: Memory) -> CurveComparison:
     """Return learning curves, one panel a task, one curve a group of seeds."""
     return compare_curves(store, memory, choice, view)
+
+
+@router.get("/best", responses=problem_responses(422))
+def get_best_models(choice: Choice, view: View, store: Store, memory: Memory) -> BestModels:
+    """Compare best test success: bars, improvement, profile and efficiency. Of the view, statistic and level count."""
+    return compare_best(store, memory, choice, view)
 
 
 @router.get("/metrics", responses=problem_responses(422))
