@@ -20,6 +20,7 @@ from backend.api.pages import BUILT_PAGE, add_pages
 from backend.api.routes import (
     choices,
     compare,
+    compare_exports,
     health,
     launches,
     queue,
@@ -71,6 +72,7 @@ def create_app(settings: Settings, page: Path = BUILT_PAGE, hosts: HostRule = LO
         workers,
         viewer_sessions,
         compare,
+        compare_exports,
         viewer_proxy,
     ):
         app.include_router(routes.router)
