@@ -64,6 +64,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/compare/bundle.zip": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Bundle
+         * @description Send figures, numbers, configs, versions, seeds and references in one archive.
+         */
+        get: operations["get_bundle"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/compare/configs": {
         parameters: {
             query?: never;
@@ -76,6 +96,26 @@ export interface paths {
          * @description Return the settings in which runs differ, and the switches between their methods.
          */
         get: operations["get_config_comparison"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/compare/figure.{format}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Figure
+         * @description Draw a comparison, or send the numbers that would be drawn.
+         */
+        get: operations["get_figure"];
         put?: never;
         post?: never;
         delete?: never;
@@ -2113,6 +2153,81 @@ export interface operations {
             };
         };
     };
+    get_bundle: {
+        parameters: {
+            query?: {
+                /** @description Whether to leave out what tells who made it, and where. */
+                anonymous?: boolean;
+                /** @description Which training is compared. */
+                phase?: "locomotion" | "manipulation";
+                /** @description Repeat for several; none: all. */
+                task?: string[];
+                /** @description Repeat for several; none: all. */
+                method?: string[];
+                /** @description Repeat for several; none: all. */
+                preset?: string[];
+                /** @description Ids of runs, to compare these only. */
+                run?: string[];
+                metric?: string;
+                /** @description What curves are drawn over. */
+                x?: "epoch" | "env_steps" | "episodes" | "updates" | "wall_seconds";
+                /** @description `seeds` shows each by itself. */
+                statistic?: "median" | "mean" | "iqm" | "seeds";
+                /** @description Of confidence intervals. */
+                level?: number;
+                /** @description Whether to add each seed's own curve. */
+                seeds?: boolean;
+                /** @description Learning curves, or bars of best models. */
+                kind?: "curves" | "best";
+                /** @description One column of a paper, both, or a slide. */
+                width?: "single" | "double" | "slide";
+                log_x?: boolean;
+                log_y?: boolean;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/zip": unknown;
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
     get_config_comparison: {
         parameters: {
             query: {
@@ -2141,6 +2256,85 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    get_figure: {
+        parameters: {
+            query?: {
+                /** @description Which training is compared. */
+                phase?: "locomotion" | "manipulation";
+                /** @description Repeat for several; none: all. */
+                task?: string[];
+                /** @description Repeat for several; none: all. */
+                method?: string[];
+                /** @description Repeat for several; none: all. */
+                preset?: string[];
+                /** @description Ids of runs, to compare these only. */
+                run?: string[];
+                metric?: string;
+                /** @description What curves are drawn over. */
+                x?: "epoch" | "env_steps" | "episodes" | "updates" | "wall_seconds";
+                /** @description `seeds` shows each by itself. */
+                statistic?: "median" | "mean" | "iqm" | "seeds";
+                /** @description Of confidence intervals. */
+                level?: number;
+                /** @description Whether to add each seed's own curve. */
+                seeds?: boolean;
+                /** @description Learning curves, or bars of best models. */
+                kind?: "curves" | "best";
+                /** @description One column of a paper, both, or a slide. */
+                width?: "single" | "double" | "slide";
+                log_x?: boolean;
+                log_y?: boolean;
+            };
+            header?: never;
+            path: {
+                format: "svg" | "pdf" | "png" | "csv" | "tex";
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/pdf": unknown;
+                    "application/x-tex": unknown;
+                    "image/png": unknown;
+                    "image/svg+xml": unknown;
+                    "text/csv": unknown;
                 };
             };
             /** @description A field or setting cannot work. */
