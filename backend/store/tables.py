@@ -240,7 +240,7 @@ studies = Table(
     Column("number", Integer, primary_key=True, autoincrement=True),
     Column("id", String(ID_LENGTH), nullable=False, unique=True),
     Column("name", String(NAME_LENGTH), nullable=False),
-    Column("note", Text, nullable=False, server_default=""),
+    Column("note", Text, nullable=False),
     Column("preset", String(NAME_LENGTH), nullable=False),
     Column("spec", JSON, nullable=False),
     Column("created_at", UtcDateTime, nullable=False),
