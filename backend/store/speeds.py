@@ -46,7 +46,7 @@ class Speeds:
         Runs that differ by nothing but the seed say it best. Without them it is the planned control steps and updates
         at the speeds of the nearest runs; a training that may end early then takes that at most.
         """
-        equal = self.seconds_of.get(_settings_key(config_to_dict(planned.config)))
+        equal = self.seconds_of.get(settings_key(config_to_dict(planned.config)))
         if equal:
             return median(equal)
         for likeness in likenesses(planned.task, planned.phase, planned.method, planned.preset):
@@ -73,7 +73,7 @@ def measure_speeds(conn: Connection) -> Speeds:
     speeds = Speeds()
     for row in found:
         if row.id in seconds:
-            speeds.seconds_of.setdefault(_settings_key(row.config), []).append(seconds[row.id])
+            speeds.seconds_of.setdefault(settings_key(row.config), []).append(seconds[row.id])
         measured = progress.get(row.id)
         if measured and measured.env_steps_per_s and measured.updates_per_s:
             speed = Speed(measured.env_steps_per_s, measured.updates_per_s)
@@ -92,6 +92,6 @@ def _training_seconds(conn: Connection, run_ids: list[str]) -> dict[str, float]:
     return seconds
 
 
-def _settings_key(config: Mapping[str, Any]) -> str:
+def settings_key(config: Mapping[str, Any]) -> str:
     """Return a text that is equal for configs that differ by nothing but the seed."""
     return json.dumps({name: value for name, value in config.items() if name != "seed"}, sort_keys=True)

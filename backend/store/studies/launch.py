@@ -15,6 +15,7 @@ from backend.store.studies.spec import (
     Addition,
     StudySpec,
     check_name,
+    check_text,
     extend_spec,
     spec_from_dict,
     spec_to_dict,
@@ -61,7 +62,7 @@ def create_study(db: Database, name: str, spec: StudySpec, note: str = "") -> La
         InvalidConfig: the study, its name, or a setting of one of its runs, cannot work.
         Refused: another study has the name.
     """
-    name, note = check_name(name), _check_note(note)
+    name, note = check_name(name), check_text("note", note, LONGEST_NOTE)
     study_id = uuid.uuid4().hex[:STUDY_ID_LENGTH]
     with db.write() as conn:
         # Two launches at once must not both find that a run has to be made, or that a name is free.
@@ -123,7 +124,7 @@ def rename_study(db: Database, study_id: str, name: str | None = None, note: str
             values["name"] = check_name(name)
             _check_name_is_free(conn, values["name"], study_id)
         if note is not None:
-            values["note"] = _check_note(note)
+            values["note"] = check_text("note", note, LONGEST_NOTE)
         if values:
             conn.execute(update(studies).where(studies.c.id == study_id).values(values))
 
@@ -211,9 +212,3 @@ def _check_name_is_free(conn: Connection, name: str, own_id: str = "") -> None:
     query = select(studies.c.id).where(studies.c.name == name, studies.c.deleted_at.is_(None), studies.c.id != own_id)
     if conn.execute(query.limit(1)).scalar_one_or_none() is not None:
         raise Refused(f"There is a study called '{name}' already; choose another name.")
-
-
-def _check_note(note: str) -> str:
-    if len(note) > LONGEST_NOTE:
-        raise InvalidConfig({"note": f"a note may have {LONGEST_NOTE} letters, and this one has {len(note)}."})
-    return note.strip()

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from itertools import product
 from typing import Any
+from unicodedata import category
 
 from backend.store.launches import check_overrides
 from sldr_core.config import TASKS, TrainConfig, config_hash, find_method
@@ -130,6 +131,20 @@ def check_name(name: str) -> str:
     return name
 
 
+def check_text(setting: str, text: str, longest: int) -> str:
+    """Return a text without the space around it.
+
+    Raises:
+        InvalidConfig: it is too long, or holds what no text can.
+    """
+    text = text.strip()
+    if len(text) > longest:
+        raise InvalidConfig({setting: f"it may have {longest} letters, and this one has {len(text)}."})
+    if any(letter == "\0" or category(letter) == "Cs" for letter in text):
+        raise InvalidConfig({setting: "it holds a character that cannot be kept; leave that out."})
+    return text
+
+
 def make_configs(spec: StudySpec, places: Iterable[Place]) -> dict[Place, TrainConfig]:
     """Return the config of each place.
 
@@ -186,12 +201,9 @@ def _check_axis(name: str, values: Sequence[object]) -> None:
 
 
 def _check_names(setting: str, names: Sequence[str]) -> list[str]:
-    stripped = [name.strip() for name in names]
-    for name in stripped:
-        if not name:
-            raise InvalidConfig({setting: "a name is empty; give it at least one letter."})
-        if len(name) > LONGEST_NAME:
-            raise InvalidConfig({setting: f"a name may have {LONGEST_NAME} letters, and this one has {len(name)}."})
+    stripped = [check_text(setting, name, LONGEST_NAME) for name in names]
+    if not all(stripped):
+        raise InvalidConfig({setting: "a name is empty; give it at least one letter."})
     if stripped:
         _check_axis(setting, stripped)
     return stripped
