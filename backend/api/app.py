@@ -27,6 +27,7 @@ from backend.api.routes import (
     run_actions,
     run_files,
     runs,
+    studies,
     viewer_sessions,
     workers,
 )
@@ -65,6 +66,7 @@ def create_app(settings: Settings, page: Path = BUILT_PAGE, hosts: HostRule = LO
         health,
         choices,
         launches,
+        studies,
         run_actions,
         runs,
         run_files,

@@ -39,7 +39,7 @@ def _content(*media_types: str) -> dict[int | str, dict[str, Any]]:
 
 
 @router.get(
-    "/figure.{format}", response_class=Response, responses=_content(*MEDIA_TYPES.values()) | problem_responses(422)
+    "/figure.{format}", response_class=Response, responses=_content(*MEDIA_TYPES.values()) | problem_responses(404, 422)
 )
 def get_figure(
     format: FigureFormat, choice: Choice, view: View, look: FigureLook, store: Store, memory: Memory
@@ -50,7 +50,7 @@ def get_figure(
     return Response(_file(content, format, look), media_type=MEDIA_TYPES[format], headers=headers)
 
 
-@router.get("/bundle.zip", response_class=Response, responses=_content("application/zip") | problem_responses(422))
+@router.get("/bundle.zip", response_class=Response, responses=_content("application/zip") | problem_responses(404, 422))
 def get_bundle(
     choice: Choice,
     view: View,
