@@ -22,6 +22,7 @@ COMMANDS = {
     "render": "Draw the picture of a task.",
     "backup": "Copy all runs and their files to one place, while everything runs.",
     "restore": "Bring back what backup has copied.",
+    "export": "Draw figures of runs, or write runs for other trackers.",
     "list": "List tasks, methods or presets.",
 }
 
