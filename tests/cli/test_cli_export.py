@@ -50,7 +50,7 @@ def export(home: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFi
 def test_the_numbers_of_a_figure_are_written(export: Export, tmp_path: Path):
     out = tmp_path / "curves.csv"
     code, printed, _ = export("figure", "--out", str(out), "--x", "env_steps")
-    rows = list(csv.DictReader(out.open(encoding="utf-8")))
+    rows = list(csv.DictReader(out.read_text(encoding="utf-8").splitlines()))
     assert (code, printed.strip()) == (0, str(out))
     assert [row["env_steps"] for row in rows] == ["95000.0", "190000.0", "285000.0", "380000.0"]
 
