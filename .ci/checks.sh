@@ -19,7 +19,7 @@ check_pytest() {
     SLDR_CHROMIUM=$(.ci/find-chromium.sh) || return
     export SLDR_CHROMIUM
     # Most tests wait for other processes; each file stays in one process, for what its tests share.
-    .venv/bin/pytest --numprocesses "$(nproc)" --dist loadfile
+    .venv/bin/pytest --numprocesses "$(nproc)" --dist loadfile --durations 400 --durations-min 0.5
 }
 
 check_client() {

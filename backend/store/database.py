@@ -8,9 +8,10 @@ from contextlib import contextmanager, nullcontext
 from datetime import UTC, datetime
 from pathlib import Path
 
-from sqlalchemy import Connection, Engine, func, inspect, select, text
+from sqlalchemy import Connection, Engine, event, func, inspect, select, text
 from sqlalchemy.exc import DataError, DBAPIError, OperationalError
 from sqlalchemy.exc import TimeoutError as NoConnectionFree
+from sqlalchemy.pool import ConnectionPoolEntry
 
 from backend.store.engines import for_reading, for_writing, open_engine, parse_address
 from backend.store.errors import StoreTooNew, StoreUnavailable, Unstorable
@@ -29,6 +30,8 @@ class Database:
     def __init__(self, engine: Engine) -> None:
         self._reader = for_reading(engine)
         self._writer = for_writing(engine)
+        self._is_closed = False
+        event.listen(engine, "checkin", self._close_if_late)
 
     @property
     def engine_name(self) -> str:
@@ -52,8 +55,14 @@ class Database:
             yield conn
 
     def close(self) -> None:
-        """Close every connection."""
+        """Close every connection; one that another thread still uses is closed when that thread is done with it."""
+        self._is_closed = True
         self._writer.dispose()
+
+    def _close_if_late(self, _connection: object, record: ConnectionPoolEntry) -> None:
+        # Without this it would wait in a pool that nobody looks at any more.
+        if self._is_closed:
+            record.invalidate()
 
 
 def open_database(settings: Settings) -> Database:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sqlite3
 import subprocess
 import sys
 import threading
@@ -10,6 +11,7 @@ import time
 from datetime import datetime
 from pathlib import Path
 
+import psycopg
 import pytest
 from alembic.autogenerate import compare_metadata
 from alembic.config import Config
@@ -29,6 +31,7 @@ from backend.store.runs import get_run
 from backend.store.settings import Settings
 from backend.store.tables import SCHEMA_REVISION, metadata, run_needs, runs
 
+DRIVER_ERRORS = (sqlite3.ProgrammingError, psycopg.OperationalError)
 OPEN = "from backend.store.database import open_database; from backend.store.settings import load_settings; "
 
 
@@ -122,6 +125,17 @@ def test_writers_of_one_run_wait_for_each_other(db: Database) -> None:
 def _write_half(conn: Connection) -> None:
     conn.execute(runs.update().values(reason="half done"))
     raise RuntimeError
+
+
+def test_a_connection_that_is_given_back_after_the_end_is_closed(settings: Settings) -> None:
+    db = open_database(settings)
+    with db.read() as conn:
+        db.close()
+        driver_connection = conn.connection.driver_connection
+    assert driver_connection is not None
+
+    with pytest.raises(DRIVER_ERRORS, match="closed"):
+        driver_connection.execute("SELECT 1")
 
 
 def test_a_failed_transaction_leaves_nothing(db: Database) -> None:
