@@ -8,7 +8,7 @@ from contextlib import contextmanager, nullcontext
 from datetime import UTC, datetime
 from pathlib import Path
 
-from sqlalchemy import Connection, Engine, event, func, inspect, select, text
+from sqlalchemy import URL, Connection, Engine, event, func, inspect, select, text
 from sqlalchemy.exc import DataError, DBAPIError, OperationalError
 from sqlalchemy.exc import TimeoutError as NoConnectionFree
 from sqlalchemy.pool import ConnectionPoolEntry
@@ -77,13 +77,20 @@ def open_database(settings: Settings) -> Database:
     url = parse_address(settings.database_url)
     engine = open_engine(url)
     database = Database(engine)
+    try:
+        _bring_up_to_date(database, engine, url)
+    except BaseException:
+        database.close()
+        raise
+    return database
+
+
+def _bring_up_to_date(database: Database, engine: Engine, url: URL) -> None:
     is_sqlite = database.engine_name == "sqlite"
-    lock = _file_lock(Path(f"{url.database}.lock")) if is_sqlite else nullcontext()
-    with lock:
+    with _file_lock(Path(f"{url.database}.lock")) if is_sqlite else nullcontext():
         if is_sqlite:
             _use_write_ahead_log(engine)
         _migrate(database)
-    return database
 
 
 def current_time(conn: Connection) -> datetime:

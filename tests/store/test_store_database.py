@@ -173,6 +173,19 @@ def test_a_store_of_a_later_version_is_left_alone(db: Database, settings: Settin
         open_database(settings)
 
 
+@pytest.mark.parametrize("engine", ["postgresql"], scope="session")
+def test_a_store_that_cannot_be_opened_is_let_go(db: Database, settings: Settings) -> None:
+    with db.write() as conn:
+        conn.execute(text("UPDATE alembic_version SET version_num = '9999'"))
+
+    with pytest.raises(StoreTooNew) as refusal:
+        open_database(settings)
+
+    connected = text("SELECT count(*) FROM pg_stat_activity WHERE datname = current_database()")
+    with db.read() as conn:
+        assert conn.execute(connected).scalar_one() == 1, refusal
+
+
 def test_times_without_a_zone_are_refused(db: Database) -> None:
     with pytest.raises(StatementError, match="has no zone"), db.write() as conn:
         conn.execute(runs.update().values(ended_at=datetime(2026, 1, 1)))
