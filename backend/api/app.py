@@ -17,7 +17,20 @@ from backend.api.errors import add_error_answers
 from backend.api.hosts import LOCAL, HostRule, OwnHost
 from backend.api.origins import SameOrigin
 from backend.api.pages import BUILT_PAGE, add_pages
-from backend.api.routes import choices, health, launches, queue, run_actions, run_files, runs, viewer_sessions, workers
+from backend.api.routes import (
+    choices,
+    health,
+    labels,
+    launches,
+    queue,
+    run_actions,
+    run_files,
+    run_table,
+    runs,
+    saved_views,
+    viewer_sessions,
+    workers,
+)
 from backend.api.tokens import ViewerTokens, load_secret
 from backend.store.database import open_database
 from backend.store.settings import Settings
@@ -53,10 +66,13 @@ def create_app(settings: Settings, page: Path = BUILT_PAGE, hosts: HostRule = LO
         choices,
         launches,
         run_actions,
+        labels,
+        run_table,
         runs,
         run_files,
         queue,
         workers,
+        saved_views,
         viewer_sessions,
         viewer_proxy,
     ):

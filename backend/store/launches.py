@@ -15,7 +15,7 @@ from backend.store.dependents import why_blocked
 from backend.store.order import last_position
 from backend.store.states import Event, RunState, append_event
 from backend.store.tables import AnyRow, run_needs, runs
-from sldr_core.config import PHASES, Phase, TrainConfig, config_hash, config_to_dict
+from sldr_core.config import PHASES, Phase, TrainConfig, config_hash, config_to_dict, settings_hash
 from sldr_core.errors import InvalidConfig, UnknownName
 from sldr_core.presets import locomotion_tasks, make_config, make_locomotion_config
 
@@ -175,6 +175,7 @@ def _insert_run(conn: Connection, planned: PlannedRun, needed_ids: list[str], at
             preset=planned.preset,
             config=config_to_dict(planned.config),
             config_hash=planned.config_hash,
+            settings_hash=settings_hash(planned.config),
             state=state,
             reason=reason,
             needs_gpu=planned.config.compute.device == "cuda",

@@ -11,10 +11,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from sqlalchemy import ColumnElement, Connection, and_, func, insert, or_, select
+from sqlalchemy import Connection, insert, select
 
 from backend.store.claims import Claim, hold_fence
 from backend.store.database import Database
+from backend.store.metric_summaries import add_to_summaries, first_step
+from backend.store.superseded import not_superseded
 from backend.store.tables import metric_steps, metric_values
 from sldr_core.records import Step
 
@@ -65,8 +67,9 @@ def append_metrics(db: Database, claim: Claim, points: Sequence[MetricPoint]) ->
     with db.write() as conn:
         hold_fence(conn, claim)
         there = _stored_names(conn, claim, points)
-        for point in points:
-            _insert_point(conn, claim, point, there)
+        first_before = first_step(conn, claim.run_id, claim.attempt)
+        added = [(point.step.cycle, _insert_point(conn, claim, point, there)) for point in points]
+        add_to_summaries(conn, claim.run_id, added, first_before)
 
 
 def read_metrics(
@@ -82,7 +85,7 @@ def read_metrics(
     with db.read() as conn:
         there = [metric_steps.c.run_id == run_id, metric_steps.c.id > after]
         if not superseded:
-            there += _not_superseded(conn, run_id)
+            there += not_superseded(conn, run_id)
         query = select(metric_steps).where(*there).order_by(metric_steps.c.id).limit(READ_LIMIT)
         steps = conn.execute(query).all()
         if not steps:
@@ -125,18 +128,19 @@ def _stored_names(conn: Connection, claim: Claim, points: Sequence[MetricPoint])
     return stored
 
 
-def _insert_point(conn: Connection, claim: Claim, point: MetricPoint, stored: dict[int, tuple[int, set[str]]]) -> None:
+def _insert_point(
+    conn: Connection, claim: Claim, point: MetricPoint, stored: dict[int, tuple[int, set[str]]]
+) -> dict[str, float]:
+    """Store what is not there yet of a point; return it by name."""
     if point.step.cycle not in stored:
         stored[point.step.cycle] = (_insert_step(conn, claim, point.step), set())
     step_id, names = stored[point.step.cycle]
-    values = [
-        {"step_id": step_id, "name": name, "value": float(value)}
-        for name, value in point.values.items()
-        if name not in names
-    ]
-    if values:
-        conn.execute(insert(metric_values), values)
-        names.update(point.values)
+    added = {name: float(value) for name, value in point.values.items() if name not in names}
+    if added:
+        rows = [{"step_id": step_id, "name": name, "value": value} for name, value in added.items()]
+        conn.execute(insert(metric_values), rows)
+        names.update(added)
+    return added
 
 
 def _insert_step(conn: Connection, claim: Claim, step: Step) -> int:
@@ -151,20 +155,6 @@ def _insert_step(conn: Connection, claim: Claim, step: Step) -> int:
         wall_seconds=step.wall_seconds,
     )
     return conn.execute(row.returning(metric_steps.c.id)).scalar_one()
-
-
-def _not_superseded(conn: Connection, run_id: str) -> list[ColumnElement[bool]]:
-    """Return conditions that leave out the points of attempts that a later one has overtaken."""
-    firsts = conn.execute(
-        select(metric_steps.c.attempt, func.min(metric_steps.c.step).label("first"))
-        .where(metric_steps.c.run_id == run_id)
-        .group_by(metric_steps.c.attempt)
-    ).all()
-    return [
-        or_(metric_steps.c.attempt >= row.attempt, and_(metric_steps.c.step < row.first))
-        for row in firsts
-        if row.attempt > min(other.attempt for other in firsts)
-    ]
 
 
 def _columns(steps: Sequence[Any], values: Sequence[Any]) -> MetricColumns:

@@ -25,7 +25,7 @@ from sqlalchemy import (
     false,
 )
 
-SCHEMA_REVISION = "0002"
+SCHEMA_REVISION = "0004"
 """The migration that these tables correspond to."""
 
 AnyRow = Row[*tuple[Any, ...]]
@@ -78,6 +78,7 @@ runs = Table(
     Column("preset", String(NAME_LENGTH), nullable=False),
     Column("config", JSON, nullable=False),
     Column("config_hash", String(ID_LENGTH), nullable=False),
+    Column("settings_hash", String(ID_LENGTH)),
     Column("state", String(ID_LENGTH), nullable=False),
     Column("reason", Text),
     Column("success_rate", Float),
@@ -99,6 +100,7 @@ runs = Table(
     Column("started_at", UtcDateTime),
     Column("ended_at", UtcDateTime),
     Column("deleted_at", UtcDateTime),
+    Column("notes", Text),
     Index(None, "state", "number"),
     Index(None, "state", "rank", "queue_position", "number"),
     Index(None, "queue_position"),
@@ -178,6 +180,35 @@ metric_values = Table(
     Column("name", String(NAME_LENGTH), primary_key=True),
     Column("value", Float, nullable=False),
     sqlite_with_rowid=False,
+)
+
+metric_summaries = Table(
+    "metric_summaries",
+    metadata,
+    Column("run_id", String(ID_LENGTH), ForeignKey("runs.id"), primary_key=True),
+    Column("name", String(NAME_LENGTH), primary_key=True, index=True),
+    Column("points", Integer, nullable=False),
+    Column("last_step", Integer, nullable=False),
+    Column("last", Float, nullable=False),
+    Column("lowest", Float, nullable=False),
+    Column("highest", Float, nullable=False),
+    Column("tail", JSON, nullable=False),
+)
+
+run_tags = Table(
+    "run_tags",
+    metadata,
+    Column("run_id", String(ID_LENGTH), ForeignKey("runs.id"), primary_key=True),
+    Column("tag", String(NAME_LENGTH), primary_key=True, index=True),
+)
+
+saved_views = Table(
+    "saved_views",
+    metadata,
+    Column("id", String(ID_LENGTH), primary_key=True),
+    Column("name", String(NAME_LENGTH), nullable=False, unique=True),
+    Column("search", Text, nullable=False),
+    Column("created_at", UtcDateTime, nullable=False),
 )
 
 run_files = Table(
