@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Annotated
 
 from fastapi import Depends, Query
@@ -22,7 +22,8 @@ LARGEST_SEED = 2**31 - 1
 """Seeds are below this."""
 
 _Name = Annotated[str, Query(max_length=NAME_LENGTH)]
-Names = Annotated[list[_Name], Query(max_length=MOST_NAMES)]
+_Names = tuple[_Name, ...]
+SomeNames = Annotated[_Names, Query(max_length=MOST_NAMES)]
 SeedBound = Annotated[int | None, Query(ge=0, le=LARGEST_SEED)]
 SuccessBound = Annotated[float | None, Query(ge=0.0, le=1.0)]
 
@@ -31,23 +32,17 @@ SuccessBound = Annotated[float | None, Query(ge=0.0, le=1.0)]
 class RunQuery:
     """Hold a request's filters; what is left out leaves a question open."""
 
-    state: Annotated[list[RunState], Query(max_length=MOST_NAMES)] = field(default_factory=list[RunState])
-    task: Names = field(default_factory=list[str])
-    method: Names = field(default_factory=list[str])
-    phase: Annotated[list[Phase], Query(max_length=MOST_NAMES)] = field(default_factory=list[Phase])
-    preset: Names = field(default_factory=list[str])
+    state: Annotated[tuple[RunState, ...], Query(max_length=MOST_NAMES)] = ()
+    task: SomeNames = ()
+    method: SomeNames = ()
+    phase: Annotated[tuple[Phase, ...], Query(max_length=MOST_NAMES)] = ()
+    preset: SomeNames = ()
     settings: Annotated[
         str | None, Query(max_length=32, description="`settings_hash` of runs that differ in the seed alone.")
     ] = None
-    tag: Annotated[list[_Name], Query(max_length=MOST_NAMES, description="Tags that a run must all have.")] = field(
-        default_factory=list[str]
-    )
-    any_tag: Annotated[list[_Name], Query(max_length=MOST_NAMES, description="Tags of which a run must have one.")] = (
-        field(default_factory=list[str])
-    )
-    no_tag: Annotated[list[_Name], Query(max_length=MOST_NAMES, description="Tags of which it must have none.")] = (
-        field(default_factory=list[str])
-    )
+    tag: Annotated[_Names, Query(max_length=MOST_NAMES, description="Tags that a run must all have.")] = ()
+    any_tag: Annotated[_Names, Query(max_length=MOST_NAMES, description="Tags of which it must have one.")] = ()
+    no_tag: Annotated[_Names, Query(max_length=MOST_NAMES, description="Tags of which it must have none.")] = ()
     seed_from: SeedBound = None
     seed_to: SeedBound = None
     success_from: SuccessBound = None
@@ -84,12 +79,12 @@ class TableQuery:
     """Hold the columns and the order of a request."""
 
     column: Annotated[
-        list[_Name],
+        _Names,
         Query(
             max_length=MOST_COLUMNS,
             description="Metrics to show, such as `test/success_rate:last`, `critic/task/loss:best` or `a/b:mean5`.",
         ),
-    ] = field(default_factory=list[str])
+    ] = ()
     sort: Annotated[
         str,
         Query(

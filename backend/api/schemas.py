@@ -141,6 +141,7 @@ class RunSummary(Strict):
     gate_waived: bool = Field(description="A person has let it start below its gate.")
     priority: int = Field(description="Runs of a higher one start first.")
     deleted_at: datetime | None = Field(description="When a person hid it; it can be restored.")
+    settings_hash: str = Field(description="Equal for runs that differ in nothing but the seed.")
     tags: list[str] = Field(description="What people call it, in the order of the alphabet.")
 
 
@@ -166,7 +167,6 @@ class RunDetail(RunSummary):
 
     config: dict[str, Any]
     config_hash: str
-    settings_hash: str = Field(description="Equal for runs that differ in nothing but the seed.")
     notes: str = Field(description="What people wrote about it, as plain text.")
     locomotion_run_id: str | None
     has_policy: bool = Field(description="Whether there is a policy that can be watched in 3D.")

@@ -43,7 +43,8 @@ class MetricColumn:
         total: ColumnElement[float] = literal(0.0)
         for index in range(self.window):
             total += func.coalesce(summary.c.tail[index].as_float(), 0.0)
-        return total / case((summary.c.points < self.window, summary.c.points), else_=self.window)
+        few, many = summary.c.points < self.window, summary.c.points >= self.window
+        return total / case((few, summary.c.points), (many, self.window))
 
 
 def parse_column(text: str, field: str = "column") -> MetricColumn:

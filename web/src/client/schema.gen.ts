@@ -84,6 +84,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/metric-names": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Metrics
+         * @description List what runs have logged.
+         */
+        get: operations["list_metrics"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/queue": {
         parameters: {
             query?: never;
@@ -104,6 +124,46 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/run-groups": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Run Groups
+         * @description List the groups of the runs that pass the filters, with the quartiles of one metric over their runs.
+         */
+        get: operations["list_run_groups"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/run-groups.csv": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Download Run Groups
+         * @description Send the groups as CSV, in their order.
+         */
+        get: operations["download_run_groups"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/runs": {
         parameters: {
             query?: never;
@@ -116,6 +176,26 @@ export interface paths {
          * @description List runs, one page at a time; the newest come first unless another order is asked for.
          */
         get: operations["list_runs"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/runs.csv": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Download Runs
+         * @description Send the table as CSV, in its order and with its columns.
+         */
+        get: operations["download_runs"];
         put?: never;
         post?: never;
         delete?: never;
@@ -158,6 +238,26 @@ export interface paths {
          */
         put: operations["set_runs_priority"];
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/runs/tags": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Change Run Tags
+         * @description Give runs tags and take others away.
+         */
+        post: operations["change_run_tags"];
         delete?: never;
         options?: never;
         head?: never;
@@ -324,6 +424,46 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/runs/{run_id}/notes": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Set Run Notes
+         * @description Replace the notes of a run.
+         */
+        put: operations["set_run_notes"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/tags": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Tags
+         * @description List every tag in use.
+         */
+        get: operations["list_tags"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/tasks/{task}/picture": {
         parameters: {
             query?: never;
@@ -386,6 +526,54 @@ export interface paths {
         options?: never;
         head?: never;
         patch?: never;
+        trace?: never;
+    };
+    "/api/views": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Views
+         * @description List every saved view, by name.
+         */
+        get: operations["list_views"];
+        put?: never;
+        /**
+         * Save View
+         * @description Keep a view under a name that no other has.
+         */
+        post: operations["save_view"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/views/{view_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * Delete View
+         * @description Forget a view.
+         */
+        delete: operations["delete_view"];
+        options?: never;
+        head?: never;
+        /**
+         * Change View
+         * @description Give a view another name, or let it show something else.
+         */
+        patch: operations["change_view"];
         trace?: never;
     };
     "/api/workers": {
@@ -677,6 +865,14 @@ export interface components {
             wall_seconds: number[];
         };
         /**
+         * MetricNames
+         * @description What runs have logged: each can be a column.
+         */
+        MetricNames: {
+            /** Names */
+            names: string[];
+        };
+        /**
          * Move
          * @description A new place for a run that waits.
          */
@@ -686,6 +882,27 @@ export interface components {
              * @description The waiting run that it shall start before; null for the end.
              */
             before: string | null;
+        };
+        /**
+         * NewView
+         * @description A view of the runs table to be kept for everyone.
+         */
+        NewView: {
+            /** Name */
+            name: string;
+            /**
+             * Search
+             * @description The page's search string, without the question mark.
+             */
+            search: string;
+        };
+        /**
+         * Notes
+         * @description What people write about a run, as plain text.
+         */
+        Notes: {
+            /** Notes */
+            notes: string;
         };
         /**
          * PlannedRun
@@ -902,6 +1119,11 @@ export interface components {
              */
             needs: string[];
             /**
+             * Notes
+             * @description What people wrote about it, as plain text.
+             */
+            notes: string;
+            /**
              * Pause Requested
              * @description It will pause; its worker has not paused it yet.
              */
@@ -926,9 +1148,19 @@ export interface components {
             reason: string | null;
             /** Seed */
             seed: number;
+            /**
+             * Settings Hash
+             * @description Equal for runs that differ in nothing but the seed.
+             */
+            settings_hash: string;
             /** Started At */
             started_at: string | null;
             state: components["schemas"]["RunState"];
+            /**
+             * Tags
+             * @description What people call it, in the order of the alphabet.
+             */
+            tags: string[];
             /** Task */
             task: string;
         };
@@ -988,6 +1220,45 @@ export interface components {
             files: components["schemas"]["RunFile"][];
         };
         /**
+         * RunGroup
+         * @description Runs that share what they are grouped by.
+         */
+        RunGroup: {
+            /** Keys */
+            keys: {
+                [key: string]: string;
+            };
+            /** Runs */
+            runs: number;
+            /**
+             * Seeds
+             * @description Each once, in their order.
+             */
+            seeds: number[];
+            /** @description Of the metric asked for; null if no run has logged it. */
+            spread: components["schemas"]["Spread"] | null;
+            /**
+             * States
+             * @description Runs in each state that occurs.
+             */
+            states: {
+                [key: string]: number;
+            };
+        };
+        /**
+         * RunGroups
+         * @description The groups of the runs that pass a filter, in the order asked for.
+         */
+        RunGroups: {
+            /** Groups */
+            groups: components["schemas"]["RunGroup"][];
+            /**
+             * Total
+             * @description Runs in all groups.
+             */
+            total: number;
+        };
+        /**
          * RunPage
          * @description One page of runs, in the order asked for.
          */
@@ -998,6 +1269,11 @@ export interface components {
             runs: components["schemas"]["RunSummary"][];
             /** Total */
             total: number;
+            /**
+             * Values
+             * @description For each run, the values of the columns asked for; null where it has not logged the metric.
+             */
+            values: (number | null)[][];
         };
         /**
          * RunState
@@ -1073,11 +1349,99 @@ export interface components {
             reason: string | null;
             /** Seed */
             seed: number;
+            /**
+             * Settings Hash
+             * @description Equal for runs that differ in nothing but the seed.
+             */
+            settings_hash: string;
             /** Started At */
             started_at: string | null;
             state: components["schemas"]["RunState"];
+            /**
+             * Tags
+             * @description What people call it, in the order of the alphabet.
+             */
+            tags: string[];
             /** Task */
             task: string;
+        };
+        /**
+         * SavedView
+         * @description One saved view.
+         */
+        SavedView: {
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /** Id */
+            id: string;
+            /** Name */
+            name: string;
+            /** Search */
+            search: string;
+        };
+        /**
+         * SavedViews
+         * @description Every saved view, by name.
+         */
+        SavedViews: {
+            /** Views */
+            views: components["schemas"]["SavedView"][];
+        };
+        /**
+         * Spread
+         * @description The middle half of a group's values.
+         */
+        Spread: {
+            /**
+             * Lower
+             * @description First quartile.
+             */
+            lower: number;
+            /** Median */
+            median: number;
+            /**
+             * N
+             * @description Runs that have a value.
+             */
+            n: number;
+            /**
+             * Upper
+             * @description Third quartile.
+             */
+            upper: number;
+        };
+        /**
+         * TagChange
+         * @description Tags to give to runs and to take from them: of all of them or, if one does not allow it, of none.
+         */
+        TagChange: {
+            /** Add */
+            add?: string[];
+            /** Remove */
+            remove?: string[];
+            /** Run Ids */
+            run_ids: string[];
+        };
+        /**
+         * TagCount
+         * @description One tag, and how many runs have it.
+         */
+        TagCount: {
+            /** Runs */
+            runs: number;
+            /** Tag */
+            tag: string;
+        };
+        /**
+         * Tags
+         * @description Every tag in use, in the order of the alphabet.
+         */
+        Tags: {
+            /** Tags */
+            tags: components["schemas"]["TagCount"][];
         };
         /**
          * Task
@@ -1104,6 +1468,16 @@ export interface components {
             success_angle: number | null;
             /** Success Distance */
             success_distance: number | null;
+        };
+        /**
+         * ViewChange
+         * @description Another name or another search string for a view; what is left out or null stays.
+         */
+        ViewChange: {
+            /** Name */
+            name?: string | null;
+            /** Search */
+            search?: string | null;
         };
         /**
          * ViewerRequest
@@ -1230,7 +1604,10 @@ export type LaunchResult = components['schemas']['LaunchResult'];
 export type LogTail = components['schemas']['LogTail'];
 export type Method = components['schemas']['Method'];
 export type MetricBatch = components['schemas']['MetricBatch'];
+export type MetricNames = components['schemas']['MetricNames'];
 export type Move = components['schemas']['Move'];
+export type NewView = components['schemas']['NewView'];
+export type Notes = components['schemas']['Notes'];
 export type PlannedRun = components['schemas']['PlannedRun'];
 export type PresetSummary = components['schemas']['PresetSummary'];
 export type PriorityChange = components['schemas']['PriorityChange'];
@@ -1245,10 +1622,19 @@ export type RunEvent = components['schemas']['RunEvent'];
 export type RunEvents = components['schemas']['RunEvents'];
 export type RunFile = components['schemas']['RunFile'];
 export type RunFiles = components['schemas']['RunFiles'];
+export type RunGroup = components['schemas']['RunGroup'];
+export type RunGroups = components['schemas']['RunGroups'];
 export type RunPage = components['schemas']['RunPage'];
 export type RunState = components['schemas']['RunState'];
 export type RunSummary = components['schemas']['RunSummary'];
+export type SavedView = components['schemas']['SavedView'];
+export type SavedViews = components['schemas']['SavedViews'];
+export type Spread = components['schemas']['Spread'];
+export type TagChange = components['schemas']['TagChange'];
+export type TagCount = components['schemas']['TagCount'];
+export type Tags = components['schemas']['Tags'];
 export type Task = components['schemas']['Task'];
+export type ViewChange = components['schemas']['ViewChange'];
 export type ViewerRequest = components['schemas']['ViewerRequest'];
 export type ViewerSession = components['schemas']['ViewerSession'];
 export type Worker = components['schemas']['Worker'];
@@ -1486,6 +1872,44 @@ export interface operations {
             };
         };
     };
+    list_metrics: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MetricNames"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
     get_queue: {
         parameters: {
             query?: {
@@ -1535,23 +1959,190 @@ export interface operations {
             };
         };
     };
-    list_runs: {
+    list_run_groups: {
         parameters: {
-            query?: {
-                state?: components["schemas"]["RunState"] | null;
-                task?: string | null;
-                method?: string | null;
-                phase?: ("locomotion" | "manipulation") | null;
-                /** @description Words that id, task, method, phase, preset or state hold. */
+            query: {
+                /** @description What the runs of a group share; `settings` is all but the seed. */
+                by: ("task" | "phase" | "method" | "preset" | "state" | "settings")[];
+                /** @description Metric whose spread is wanted, written as a column. */
+                metric?: string;
+                sort?: "launched" | "task" | "phase" | "method" | "preset" | "state" | "settings" | "runs" | "median";
+                descending?: boolean;
+                state?: components["schemas"]["RunState"][];
+                task?: string[];
+                method?: string[];
+                phase?: ("locomotion" | "manipulation")[];
+                preset?: string[];
+                /** @description `settings_hash` of runs that differ in the seed alone. */
+                settings?: string | null;
+                /** @description Tags that a run must all have. */
+                tag?: string[];
+                /** @description Tags of which it must have one. */
+                any_tag?: string[];
+                /** @description Tags of which it must have none. */
+                no_tag?: string[];
+                seed_from?: number | null;
+                seed_to?: number | null;
+                success_from?: number | null;
+                success_to?: number | null;
+                /** @description Words that id, task, method, phase, preset, state, a tag or notes hold. */
                 search?: string | null;
                 /** @description The runs that a person hid, instead of all others. */
                 deleted?: boolean;
-                /** @description `success` is that of the newest test. */
-                sort?: "launched" | "task" | "state" | "success";
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RunGroups"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    download_run_groups: {
+        parameters: {
+            query: {
+                /** @description What the runs of a group share; `settings` is all but the seed. */
+                by: ("task" | "phase" | "method" | "preset" | "state" | "settings")[];
+                /** @description Metric whose spread is wanted, written as a column. */
+                metric?: string;
+                sort?: "launched" | "task" | "phase" | "method" | "preset" | "state" | "settings" | "runs" | "median";
                 descending?: boolean;
+                state?: components["schemas"]["RunState"][];
+                task?: string[];
+                method?: string[];
+                phase?: ("locomotion" | "manipulation")[];
+                preset?: string[];
+                /** @description `settings_hash` of runs that differ in the seed alone. */
+                settings?: string | null;
+                /** @description Tags that a run must all have. */
+                tag?: string[];
+                /** @description Tags of which it must have one. */
+                any_tag?: string[];
+                /** @description Tags of which it must have none. */
+                no_tag?: string[];
+                seed_from?: number | null;
+                seed_to?: number | null;
+                success_from?: number | null;
+                success_to?: number | null;
+                /** @description Words that id, task, method, phase, preset, state, a tag or notes hold. */
+                search?: string | null;
+                /** @description The runs that a person hid, instead of all others. */
+                deleted?: boolean;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description One row a run or group. */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/csv": unknown;
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    list_runs: {
+        parameters: {
+            query?: {
                 limit?: number;
-                /** @description `next_cursor` of the page before. */
+                /** @description `next_cursor` of the page before, to read on while runs change. */
                 cursor?: string | null;
+                /** @description Runs to leave out, to jump into a long table. */
+                offset?: number;
+                state?: components["schemas"]["RunState"][];
+                task?: string[];
+                method?: string[];
+                phase?: ("locomotion" | "manipulation")[];
+                preset?: string[];
+                /** @description `settings_hash` of runs that differ in the seed alone. */
+                settings?: string | null;
+                /** @description Tags that a run must all have. */
+                tag?: string[];
+                /** @description Tags of which it must have one. */
+                any_tag?: string[];
+                /** @description Tags of which it must have none. */
+                no_tag?: string[];
+                seed_from?: number | null;
+                seed_to?: number | null;
+                success_from?: number | null;
+                success_to?: number | null;
+                /** @description Words that id, task, method, phase, preset, state, a tag or notes hold. */
+                search?: string | null;
+                /** @description The runs that a person hid, instead of all others. */
+                deleted?: boolean;
+                /** @description Metrics to show, such as `test/success_rate:last`, `critic/task/loss:best` or `a/b:mean5`. */
+                column?: string[];
+                /** @description `launched`, `task`, `phase`, `method`, `seed`, `preset`, `state`, `progress`, `success` (of the newest test), `best`, `speed`, `left`, `duration`, or a metric written as in `column`. */
+                sort?: string;
+                descending?: boolean;
             };
             header?: never;
             path?: never;
@@ -1566,6 +2157,80 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["RunPage"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    download_runs: {
+        parameters: {
+            query?: {
+                state?: components["schemas"]["RunState"][];
+                task?: string[];
+                method?: string[];
+                phase?: ("locomotion" | "manipulation")[];
+                preset?: string[];
+                /** @description `settings_hash` of runs that differ in the seed alone. */
+                settings?: string | null;
+                /** @description Tags that a run must all have. */
+                tag?: string[];
+                /** @description Tags of which it must have one. */
+                any_tag?: string[];
+                /** @description Tags of which it must have none. */
+                no_tag?: string[];
+                seed_from?: number | null;
+                seed_to?: number | null;
+                success_from?: number | null;
+                success_to?: number | null;
+                /** @description Words that id, task, method, phase, preset, state, a tag or notes hold. */
+                search?: string | null;
+                /** @description The runs that a person hid, instead of all others. */
+                deleted?: boolean;
+                /** @description Metrics to show, such as `test/success_rate:last`, `critic/task/loss:best` or `a/b:mean5`. */
+                column?: string[];
+                /** @description `launched`, `task`, `phase`, `method`, `seed`, `preset`, `state`, `progress`, `success` (of the newest test), `best`, `speed`, `left`, `duration`, or a metric written as in `column`. */
+                sort?: string;
+                descending?: boolean;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description One row a run or group. */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/csv": unknown;
                 };
             };
             /** @description A field or setting cannot work. */
@@ -1676,6 +2341,82 @@ export interface operations {
         requestBody: {
             content: {
                 "application/json": components["schemas"]["PriorityChange"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    change_run_tags: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["TagChange"];
             };
         };
         responses: {
@@ -2253,6 +2994,122 @@ export interface operations {
             };
         };
     };
+    set_run_notes: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Notes"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    list_tags: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Tags"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
     get_task_picture: {
         parameters: {
             query?: never;
@@ -2485,6 +3342,285 @@ export interface operations {
             };
             /** @description It does not exist. */
             404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    list_views: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SavedViews"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    save_view: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewView"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SavedView"];
+                };
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    delete_view: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                view_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    change_view: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                view_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ViewChange"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SavedView"];
+                };
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
                 headers: {
                     [name: string]: unknown;
                 };
