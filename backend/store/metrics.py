@@ -7,7 +7,7 @@ points stay stored, and are read only when asked for.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -15,7 +15,7 @@ from sqlalchemy import Connection, insert, select
 
 from backend.store.claims import Claim, hold_fence
 from backend.store.database import Database
-from backend.store.metric_summaries import add_to_summaries, first_step
+from backend.store.metric_summaries import LoggedValues, add_to_summaries, first_step
 from backend.store.superseded import not_superseded
 from backend.store.tables import metric_steps, metric_values
 from sldr_core.records import Step
@@ -66,9 +66,8 @@ def append_metrics(db: Database, claim: Claim, points: Sequence[MetricPoint]) ->
         _check_finite(point)
     with db.write() as conn:
         hold_fence(conn, claim)
-        there = _stored_names(conn, claim, points)
         first_before = first_step(conn, claim.run_id, claim.attempt)
-        added = [(point.step.cycle, _insert_point(conn, claim, point, there)) for point in points]
+        added = _insert_points(conn, claim, points)
         add_to_summaries(conn, claim.run_id, added, first_before)
 
 
@@ -128,33 +127,46 @@ def _stored_names(conn: Connection, claim: Claim, points: Sequence[MetricPoint])
     return stored
 
 
-def _insert_point(
-    conn: Connection, claim: Claim, point: MetricPoint, stored: dict[int, tuple[int, set[str]]]
-) -> dict[str, float]:
-    """Store what is not there yet of a point; return it by name."""
-    if point.step.cycle not in stored:
-        stored[point.step.cycle] = (_insert_step(conn, claim, point.step), set())
-    step_id, names = stored[point.step.cycle]
-    added = {name: float(value) for name, value in point.values.items() if name not in names}
-    if added:
-        rows = [{"step_id": step_id, "name": name, "value": value} for name, value in added.items()]
+def _insert_points(conn: Connection, claim: Claim, points: Sequence[MetricPoint]) -> list[LoggedValues]:
+    """Store what is not there yet of some points; return that."""
+    stored = _stored_names(conn, claim, points)
+    missing = {point.step.cycle: point.step for point in points if point.step.cycle not in stored}
+    stored |= {cycle: (step_id, set()) for cycle, step_id in _insert_steps(conn, claim, missing.values())}
+    added: list[LoggedValues] = []
+    for point in points:
+        names = stored[point.step.cycle][1]
+        values = {name: float(value) for name, value in point.values.items() if name not in names}
+        names.update(values)
+        added.append((point.step.cycle, values))
+    rows = [
+        {"step_id": stored[cycle][0], "name": name, "value": value}
+        for cycle, values in added
+        for name, value in values.items()
+    ]
+    if rows:
         conn.execute(insert(metric_values), rows)
-        names.update(added)
     return added
 
 
-def _insert_step(conn: Connection, claim: Claim, step: Step) -> int:
-    row = insert(metric_steps).values(
-        run_id=claim.run_id,
-        attempt=claim.attempt,
-        step=step.cycle,
-        epoch=step.epoch,
-        env_steps=step.env_steps,
-        episodes=step.episodes,
-        updates=step.updates,
-        wall_seconds=step.wall_seconds,
-    )
-    return conn.execute(row.returning(metric_steps.c.id)).scalar_one()
+def _insert_steps(conn: Connection, claim: Claim, steps: Iterable[Step]) -> list[tuple[int, int]]:
+    """Store steps in their order, which cursors follow; return the id of each beside its cycle."""
+    rows = [
+        {
+            "run_id": claim.run_id,
+            "attempt": claim.attempt,
+            "step": step.cycle,
+            "epoch": step.epoch,
+            "env_steps": step.env_steps,
+            "episodes": step.episodes,
+            "updates": step.updates,
+            "wall_seconds": step.wall_seconds,
+        }
+        for step in steps
+    ]
+    if not rows:
+        return []
+    query = insert(metric_steps).returning(metric_steps.c.step, metric_steps.c.id, sort_by_parameter_order=True)
+    return [(row.step, row.id) for row in conn.execute(query, rows)]
 
 
 def _columns(steps: Sequence[Any], values: Sequence[Any]) -> MetricColumns:

@@ -33,6 +33,7 @@ export function RunsTable({ search, lines, table, onRange }: TableProps) {
     getScrollElement: () => frame.current,
     estimateSize: () => LINE_HEIGHT,
     measureElement: heightOf(LINE_HEIGHT),
+    scrollMargin: LINE_HEIGHT,
     scrollPaddingStart: LINE_HEIGHT,
     overscan: OVERSCAN,
     rangeExtractor: withActive(keys.active),
