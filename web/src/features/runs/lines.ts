@@ -17,6 +17,9 @@ export interface Range {
   readonly last: number;
 }
 
+/** Runs at once where they are at hand, else once they are fetched. */
+export type SomeRuns = readonly RunSummary[] | Promise<readonly RunSummary[]>;
+
 /** All lines of a table, of which those in view are at hand. */
 export interface Lines {
   readonly count: number;
@@ -27,9 +30,9 @@ export interface Lines {
   lineAt: (index: number) => Line;
   /** A run that is at hand. */
   findRun: (id: string) => RunSummary | undefined;
-  /** The runs between two lines, both included; fetched where they are not at hand. */
-  runsBetween: (range: Range) => Promise<readonly RunSummary[]>;
-  runsOfGroup: (group: RunGroup) => Promise<readonly RunSummary[]>;
+  /** The runs between two lines, both included. */
+  runsBetween: (range: Range) => SomeRuns;
+  runsOfGroup: (group: RunGroup) => SomeRuns;
 }
 
 export const LOADING: Line = { kind: 'loading' };

@@ -1,4 +1,5 @@
 import { expect, test } from 'vitest';
+import { shownColumns, withColumn } from './columns';
 import { csvAddress } from './components/csv-link';
 import { filtersOf } from './components/filter-chips';
 import { formatSeeds } from './group-words';
@@ -48,7 +49,7 @@ test('the whole page goes through the address unchanged', () => {
     seed_to: 4,
     success_from: 0.5,
     columns: ['test/success_rate:best', 'critic/task/loss:mean10'],
-    hide: ['speed'],
+    show: ['state', 'task', 'preset'],
     group: ['task', 'method'],
     open: ['FetchPush|her'],
   };
@@ -67,6 +68,12 @@ test('columns of metrics are read as they are written', () => {
   expect(['a/b', 'a/b:mean', 'a/b:mean0', 'a/b:mean21', ':last'].map(parseMetricColumn)).toEqual(Array(5).fill(null));
   expect(writeMetricColumn({ name: 'a/b', statistic: 'best', window: 1 })).toBe('a/b:best');
   expect(formatMetric('test/success_rate', 0.9125)).toBe('91.3\u202f%');
+});
+
+test('a column more or less is written only where it differs from the usual ones', () => {
+  expect(withColumn('speed', false)).not.toContain('speed');
+  expect(withColumn('speed', true, withColumn('speed', false))).toBeUndefined();
+  expect(shownColumns([])).toEqual(['task']);
 });
 
 test('filters are told in words', () => {
@@ -90,7 +97,7 @@ test('seeds that follow each other stand together', () => {
 });
 
 test('the CSV file holds what the page shows', () => {
-  const runs = csvAddress({ task: ['FetchPush'], sort: 'seed', columns: ['a/b:last'], hide: ['speed'] });
+  const runs = csvAddress({ task: ['FetchPush'], sort: 'seed', columns: ['a/b:last'], show: ['task'] });
   expect(runs).toBe('/api/runs.csv?task=FetchPush&deleted=false&sort=seed&descending=false&column=a%2Fb%3Alast');
   const groups = new URL(csvAddress({ group: ['task', 'method'], sort: 'median' }), 'http://here');
   expect(groups.pathname).toBe('/api/run-groups.csv');

@@ -1,7 +1,7 @@
 /** What the runs table shows, as it stands in the address: filters, order, columns, groups. */
 import type { RunState } from '@/client/schema.gen';
 import { RUN_STATES } from '@/lib/states';
-import { type BuiltIn, isBuiltIn } from './columns';
+import { BUILT_IN_KEYS, type BuiltIn } from './columns';
 import { isMetricColumn } from './metric-columns';
 
 export const PHASES = ['locomotion', 'manipulation'] as const;
@@ -48,8 +48,8 @@ export interface RunsSearch extends RunsFilter {
   readonly order?: 'up' | 'down';
   /** Metric columns, such as `test/success_rate:best`. */
   readonly columns?: Texts;
-  /** Built-in columns that are left out. */
-  readonly hide?: readonly BuiltIn[];
+  /** Built-in columns that are shown; left out: the usual ones. */
+  readonly show?: readonly BuiltIn[];
   readonly group?: readonly GroupKey[];
   /** The metric whose spread each group shows. */
   readonly spread?: string;
@@ -88,7 +88,7 @@ export function readRunsSearch(raw: Record<string, unknown>): RunsSearch {
     sort: text('sort'),
     order: order === 'up' || order === 'down' ? order : undefined,
     columns: some(list('columns')?.filter(isMetricColumn).slice(0, MOST_METRIC_COLUMNS)),
-    hide: some(list('hide')?.filter(isBuiltIn)),
+    show: known('show', BUILT_IN_KEYS),
     group: known('group', GROUP_KEYS),
     spread: isMetricColumn(text('spread') ?? '') ? text('spread') : undefined,
     open: list('open'),
@@ -100,7 +100,7 @@ export const MOST_METRIC_COLUMNS = 12;
 
 /** What narrows the table, without order, columns and groups. */
 export function filterOf(search: RunsSearch): RunsFilter {
-  const { sort, order, columns, hide, group, spread, open, ...filter } = search;
+  const { sort, order, columns, show, group, spread, open, ...filter } = search;
   return filter;
 }
 

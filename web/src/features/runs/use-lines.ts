@@ -33,12 +33,12 @@ function useRunLines(search: RunsSearch, shown: Range, isWanted: boolean): Lines
     error: first.data === undefined ? first.error : null,
     lineAt,
     findRun: (id) => found(pages.values(), id),
-    runsBetween: async (range) => {
+    runsBetween: (range) => {
       const lines = Array.from({ length: range.last - range.first + 1 }, (_, i) => lineAt(range.first + i));
       const isAtHand = lines.every((line) => line.kind === 'run');
       return isAtHand ? runsAmong(lines) : fetchRowsBetween(search, range.first, range.last);
     },
-    runsOfGroup: async () => [],
+    runsOfGroup: () => [],
   };
 }
 
@@ -67,8 +67,8 @@ function useGroupLines(search: RunsSearch, isWanted: boolean): Lines {
     error: data === undefined ? error : null,
     lineAt: (index) => lines[index] ?? LOADING,
     findRun: (id) => found(open.map(pageOf), id),
-    runsBetween: async ({ first, last }) => runsAmong(lines.slice(first, last + 1)),
-    runsOfGroup: async (group) => {
+    runsBetween: ({ first, last }) => runsAmong(lines.slice(first, last + 1)),
+    runsOfGroup: (group) => {
       const known = queries.getQueryData(runsPageQuery(searchOfGroup(search, group), 0).queryKey);
       if (known !== undefined && known.total <= MOST_IN_GROUP) return known.runs;
       return fetchRowsBetween(searchOfGroup(search, group), 0, group.runs - 1);

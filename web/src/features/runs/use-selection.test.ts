@@ -1,11 +1,11 @@
 import { act, renderHook, waitFor } from '@testing-library/react';
 import { expect, test } from 'vitest';
 import { RUN } from '@/testing/samples';
-import type { Range } from './lines';
+import type { Range, SomeRuns } from './lines';
 import { useSelection } from './use-selection';
 
 const ROWS = ['a', 'b', 'c', 'd'].map((id) => ({ ...RUN, id }));
-const between = async ({ first, last }: Range) => ROWS.slice(first, last + 1);
+const between = ({ first, last }: Range): SomeRuns => ROWS.slice(first, last + 1);
 
 function selection(runsBetween: typeof between = between, onProblem: (error: unknown) => void = () => {}) {
   const { result } = renderHook(() => useSelection(runsBetween, onProblem));

@@ -1,14 +1,14 @@
 /** Which runs are selected: one by one, from the last line to this one with Shift, or all. */
 import { useCallback, useRef, useState } from 'react';
 import type { RunSummary } from '@/client/schema.gen';
-import type { Range } from './lines';
+import type { Range, SomeRuns } from './lines';
 
 export interface Selection {
   /** The selected runs as they were when they were selected. */
   readonly runs: readonly RunSummary[];
   has: (id: string) => boolean;
-  /** Select runs or leave them out. */
-  set: (runs: readonly RunSummary[], isSelected: boolean) => void;
+  /** Select runs or leave them out; at once if they are at hand. */
+  set: (runs: SomeRuns, isSelected: boolean) => void;
   /** Select a line or leave it out; with `isRange`, all lines since the one before too. */
   setLine: (index: number, isSelected: boolean, isRange: boolean) => void;
   clear: () => void;
@@ -16,15 +16,16 @@ export interface Selection {
 
 /**
  * @param runsBetween the runs between two lines, both included
- * @param onProblem called when they cannot be fetched
+ * @param onProblem called when runs cannot be fetched
  */
-export function useSelection(
-  runsBetween: (range: Range) => Promise<readonly RunSummary[]>,
-  onProblem: (error: unknown) => void,
-): Selection {
+export function useSelection(runsBetween: (range: Range) => SomeRuns, onProblem: (error: unknown) => void): Selection {
   const [chosen, setChosen] = useState<ReadonlyMap<string, RunSummary>>(new Map());
   const anchor = useRef<number | null>(null);
-  const set = (runs: readonly RunSummary[], isSelected: boolean): void =>
+  const set = (runs: SomeRuns, isSelected: boolean): void => {
+    if (runs instanceof Promise) runs.then((found) => setNow(found, isSelected)).catch(onProblem);
+    else setNow(runs, isSelected);
+  };
+  const setNow = (runs: readonly RunSummary[], isSelected: boolean): void =>
     setChosen((before) => {
       const after = new Map(before);
       for (const run of runs) {
@@ -44,10 +45,7 @@ export function useSelection(
     setLine: (index, isSelected, isRange) => {
       const since = isRange && anchor.current !== null ? anchor.current : index;
       anchor.current = index;
-      const range = { first: Math.min(since, index), last: Math.max(since, index) };
-      runsBetween(range)
-        .then((runs) => set(runs, isSelected))
-        .catch(onProblem);
+      set(runsBetween({ first: Math.min(since, index), last: Math.max(since, index) }), isSelected);
     },
     clear,
   };

@@ -38,11 +38,7 @@ export interface TableProps {
 export function useTable(search: RunsSearch, lines: Lines, onChange: (changes: RunsSearch) => void): Table {
   const navigate = useNavigate();
   const toast = useToast();
-  const tell = (error: unknown): void => toast({ text: sentence(error), isProblem: true });
-  const selection = useSelection(lines.runsBetween, tell);
-  const take = (runs: Promise<readonly RunSummary[]>, isSelected: boolean): void => {
-    runs.then((found) => selection.set(found, isSelected)).catch(tell);
-  };
+  const selection = useSelection(lines.runsBetween, (error) => toast({ text: sentence(error), isProblem: true }));
   // Runs that the filters hide must not be acted on by mistake.
   const filter = JSON.stringify(filterOf(search));
   // biome-ignore lint/correctness/useExhaustiveDependencies: it is the change of the filter that clears
@@ -58,12 +54,13 @@ export function useTable(search: RunsSearch, lines: Lines, onChange: (changes: R
       if (!isSelected) selection.clear();
       else if (total > 0) {
         const last = Math.min(total, MOST_SELECTED) - 1;
-        take(fetchRowsBetween(search, 0, last), true);
+        selection.set(fetchRowsBetween(search, 0, last), true);
       }
     },
-    selectGroup: (group, isSelected) => take(lines.runsOfGroup(group), isSelected),
+    selectGroup: (group, isSelected) => selection.set(lines.runsOfGroup(group), isSelected),
     selectedIn: (group) => selection.runs.filter((run) => isIn(run, group)).length,
-    extend: (from, to) => take(lines.runsBetween({ first: Math.min(from, to), last: Math.max(from, to) }), true),
+    extend: (from, to) =>
+      selection.set(lines.runsBetween({ first: Math.min(from, to), last: Math.max(from, to) }), true),
     enter: (index, isOpen) => {
       const line = lines.lineAt(index);
       if (line.kind === 'group' && isOpen !== line.isOpen) {

@@ -1,9 +1,9 @@
 /** Choose columns: those every run has, and any metric as its newest value, its best, or the mean of its last ones. */
-import { Button, Checkbox, CloseButton, NumberInput, Popover, Select } from '@mantine/core';
+import { Button, Checkbox, CloseButton, FocusTrap, NumberInput, Popover, Select } from '@mantine/core';
 import { useQuery } from '@tanstack/react-query';
 import { useState } from 'react';
 import { metricNamesQuery } from '../api/metric-names';
-import { BUILT_IN_KEYS, BUILT_INS } from '../columns';
+import { BUILT_IN_KEYS, BUILT_INS, shownColumns, withColumn } from '../columns';
 import {
   LONGEST_WINDOW,
   type MetricColumn,
@@ -22,7 +22,8 @@ interface Props {
 }
 
 export function ColumnChooser({ search, hasTable, onChange }: Props) {
-  const { columns = [], hide = [] } = search;
+  const { columns = [] } = search;
+  const shown = shownColumns(search.show);
   const show = (chosen: readonly string[]): void => onChange({ columns: chosen.length === 0 ? undefined : chosen });
   return (
     <Popover position="bottom-start" shadow="md" trapFocus>
@@ -33,6 +34,7 @@ export function ColumnChooser({ search, hasTable, onChange }: Props) {
       </Popover.Target>
       <Popover.Dropdown>
         <div className={classes.choices}>
+          <FocusTrap.InitialFocus />
           {hasTable && (
             <div className={classes.checks}>
               {BUILT_IN_KEYS.filter((key) => key !== 'task').map((key) => (
@@ -40,11 +42,8 @@ export function ColumnChooser({ search, hasTable, onChange }: Props) {
                   key={key}
                   size="xs"
                   label={BUILT_INS[key].name}
-                  checked={!hide.includes(key)}
-                  onChange={(event) => {
-                    const hidden = event.currentTarget.checked ? hide.filter((one) => one !== key) : [...hide, key];
-                    onChange({ hide: hidden.length === 0 ? undefined : hidden });
-                  }}
+                  checked={shown.includes(key)}
+                  onChange={(event) => onChange({ show: withColumn(key, event.currentTarget.checked, search.show) })}
                 />
               ))}
             </div>

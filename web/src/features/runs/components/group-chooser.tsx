@@ -1,5 +1,5 @@
 /** Put runs in groups: by anything but the seed, with the spread of one metric. */
-import { Button, Checkbox, Popover } from '@mantine/core';
+import { Button, Checkbox, FocusTrap, Popover } from '@mantine/core';
 import { USUAL_SPREAD } from '../api/list-groups';
 import { GROUP_NAMES } from '../group-words';
 import { parseMetricColumn, statisticName } from '../metric-columns';
@@ -27,6 +27,7 @@ export function GroupChooser({ search, onChange }: Props) {
       </Popover.Target>
       <Popover.Dropdown>
         <div className={classes.choices}>
+          <FocusTrap.InitialFocus />
           <div className={classes.line}>
             <Button size="compact-xs" variant="light" onClick={() => by(ALL_BUT_SEED)}>
               All but the seed

@@ -66,11 +66,11 @@ export function GroupWords({ group, title, isOpen, onToggle, spread }: WordsProp
         {title}
       </button>
       <span className="number">{formatPlural(group.runs, 'run')}</span>
-      <span className="faint number" title={`Seeds ${group.seeds.join(', ')}`}>
+      <SpreadWords group={group} metric={spread ?? USUAL_SPREAD} />
+      <States states={group.states} />
+      <span className={`faint number ${classes.seeds}`} title={`Seeds ${group.seeds.join(', ')}`}>
         seeds {formatSeeds(group.seeds)}
       </span>
-      <States states={group.states} />
-      <SpreadWords group={group} metric={spread ?? USUAL_SPREAD} />
     </span>
   );
 }

@@ -1,5 +1,5 @@
 /** Narrow the table: a field for any word, and a panel for everything else. */
-import { Button, MultiSelect, NumberInput, Popover, Switch, TextInput } from '@mantine/core';
+import { Button, FocusTrap, MultiSelect, NumberInput, Popover, Switch, TextInput } from '@mantine/core';
 import { useDebouncedCallback } from '@mantine/hooks';
 import { useQuery } from '@tanstack/react-query';
 import { useEffect, useState } from 'react';
@@ -57,6 +57,7 @@ export function FilterPanel(props: Props) {
       </Popover.Target>
       <Popover.Dropdown>
         <div className={classes.choices}>
+          <FocusTrap.InitialFocus />
           <Choices {...props} />
           <TagField label="Has all tags" value={search.tag ?? []} onChange={(tag) => onChange({ tag: some(tag) })} />
           <TagField

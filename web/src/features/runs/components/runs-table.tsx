@@ -14,11 +14,11 @@ import { heightOf, OVERSCAN, VirtualLines, withActive } from './virtual-lines';
 
 /** Of a line without a note, and of the head [px]. */
 const LINE_HEIGHT = 36;
-const SELECT_WIDTH = 42; // [px]
+const SELECT_WIDTH = 40; // [px]
 
 export function RunsTable({ search, lines, table, onRange }: TableProps) {
   const frame = useRef<HTMLDivElement>(null);
-  const columns = shownColumns(search.hide);
+  const columns = shownColumns(search.show);
   const metrics = search.columns ?? [];
   const span = columns.length + metrics.length;
   const keys = useLineKeys({

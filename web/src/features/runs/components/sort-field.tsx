@@ -19,7 +19,7 @@ export function SortField({ search, onChange }: Props) {
     <span className={classes.line}>
       <Select
         size="xs"
-        w={170}
+        className={classes.sortField}
         aria-label="Sort by"
         data={search.group === undefined ? runSorts(search) : groupSorts(search)}
         value={sorting.sort}

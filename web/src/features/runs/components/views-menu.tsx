@@ -1,5 +1,5 @@
 /** Saved views: open, keep, rename and forget what the table shows. */
-import { Button, Popover, TextInput } from '@mantine/core';
+import { Button, FocusTrap, Popover, TextInput } from '@mantine/core';
 import { useQuery } from '@tanstack/react-query';
 import { useRouterState } from '@tanstack/react-router';
 import { type FormEvent, useState } from 'react';
@@ -33,6 +33,7 @@ export function ViewsMenu() {
       </Popover.Target>
       <Popover.Dropdown>
         <div className={classes.choices}>
+          <FocusTrap.InitialFocus />
           {views.length === 0 && <span className="faint">No view is saved yet.</span>}
           {views.map((view) => (
             <ViewRow key={view.id} view={view} isCurrent={view === current} onChange={change} />
