@@ -82,6 +82,7 @@ runs = Table(
     Column("preset", String(NAME_LENGTH), nullable=False),
     Column("config", JSON, nullable=False),
     Column("config_hash", String(ID_LENGTH), nullable=False),
+    Column("settings_hash", String(ID_LENGTH)),
     Column("state", String(ID_LENGTH), nullable=False),
     Column("reason", Text),
     Column("success_rate", Float),
@@ -103,6 +104,7 @@ runs = Table(
     Column("started_at", UtcDateTime),
     Column("ended_at", UtcDateTime),
     Column("deleted_at", UtcDateTime),
+    Column("notes", Text),
     Index(None, "state", "number"),
     Index(None, "state", "rank", "queue_position", "number"),
     Index(None, "queue_position"),
@@ -192,6 +194,35 @@ Index(
     metric_values.c.value,
     sqlite_where=literal_column(TEST_METRIC_INDEX_CONDITION.replace("metric_values.", "")),
     postgresql_where=literal_column(TEST_METRIC_INDEX_CONDITION.replace("metric_values.", "")),
+)
+
+metric_summaries = Table(
+    "metric_summaries",
+    metadata,
+    Column("run_id", String(ID_LENGTH), ForeignKey("runs.id"), primary_key=True),
+    Column("name", String(NAME_LENGTH), primary_key=True, index=True),
+    Column("points", Integer, nullable=False),
+    Column("last_step", Integer, nullable=False),
+    Column("last", Float, nullable=False),
+    Column("lowest", Float, nullable=False),
+    Column("highest", Float, nullable=False),
+    Column("tail", JSON, nullable=False),
+)
+
+run_tags = Table(
+    "run_tags",
+    metadata,
+    Column("run_id", String(ID_LENGTH), ForeignKey("runs.id"), primary_key=True),
+    Column("tag", String(NAME_LENGTH), primary_key=True, index=True),
+)
+
+saved_views = Table(
+    "saved_views",
+    metadata,
+    Column("id", String(ID_LENGTH), primary_key=True),
+    Column("name", String(NAME_LENGTH), nullable=False, unique=True),
+    Column("search", Text, nullable=False),
+    Column("created_at", UtcDateTime, nullable=False),
 )
 
 run_files = Table(

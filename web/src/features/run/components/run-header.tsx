@@ -13,6 +13,7 @@ import { filesQuery } from '../api/run-records';
 import classes from './run.module.css';
 import { RunActions } from './run-actions';
 import { RunFigures } from './run-figures';
+import { RunLabels } from './run-labels';
 
 export function RunHeader({ run, updatedAt }: { run: RunDetail; updatedAt: number }) {
   return (
@@ -46,13 +47,14 @@ export function RunHeader({ run, updatedAt }: { run: RunDetail; updatedAt: numbe
           it back as it was.
         </p>
       )}
-      <Notes run={run} />
+      <Standing run={run} />
+      <RunLabels run={run} />
       <RunFigures run={run} />
     </header>
   );
 }
 
-function Notes({ run }: { run: RunDetail }) {
+function Standing({ run }: { run: RunDetail }) {
   return (
     <p className={classes.notes}>
       <span className="faint">
