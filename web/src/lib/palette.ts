@@ -49,6 +49,12 @@ function placeOfUnknown(method: string): number {
   return [...method].reduce((sum, letter) => (sum * 31 + letter.charCodeAt(0)) % 9973, 7);
 }
 
+/** What is not data in a chart. */
+export const CHART_INK: Readonly<Record<Scheme, { text: string; grid: string; mark: string }>> = {
+  light: { text: '#5c6370', grid: '#eceef1', mark: '#7a4894' },
+  dark: { text: '#9ba3af', grid: '#262b32', mark: '#cf9ce6' },
+};
+
 /** A run state's colour, as text and as line, for each scheme. */
 export const STATE_COLORS: Record<RunState, Record<Scheme, string>> = {
   blocked: { light: '#8a5a00', dark: '#e3b341' },
