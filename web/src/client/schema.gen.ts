@@ -24,6 +24,66 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/compare": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Curves
+         * @description Return learning curves, one panel a task, one curve a group of seeds.
+         */
+        get: operations["get_curves"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/compare/configs": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Config Comparison
+         * @description Return the settings in which runs differ, and the switches between their methods.
+         */
+        get: operations["get_config_comparison"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/compare/metrics": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Compared Metrics
+         * @description List the metrics that runs have logged.
+         */
+        get: operations["list_compared_metrics"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/defaults": {
         parameters: {
             query?: never;
@@ -545,12 +605,211 @@ export interface components {
             tasks: components["schemas"]["Task"][];
         };
         /**
+         * ComparedConfig
+         * @description One run of a comparison of configs.
+         */
+        ComparedConfig: {
+            /** Method */
+            method: string;
+            /** Phase */
+            phase: string;
+            /** Preset */
+            preset: string;
+            /** Run Id */
+            run_id: string;
+            /** Seed */
+            seed: number;
+            /** Task */
+            task: string;
+        };
+        /**
+         * ConfigComparison
+         * @description By what the configs of runs differ; settings that all share are left out.
+         */
+        ConfigComparison: {
+            /**
+             * Methods
+             * @description Each pair of different methods among the runs.
+             */
+            methods: components["schemas"]["MethodPair"][];
+            /** Runs */
+            runs: components["schemas"]["ComparedConfig"][];
+            /** Settings */
+            settings: components["schemas"]["Setting"][];
+            /**
+             * Shared
+             * @description Settings in which all are alike.
+             */
+            shared: number;
+        };
+        /**
+         * CurveComparison
+         * @description Learning curves of groups of runs, one panel a task.
+         */
+        CurveComparison: {
+            /**
+             * Every
+             * @description 1 if each cycle was read, k if every k-th: a metric of so many points is thinned.
+             */
+            every: number;
+            /**
+             * Groups
+             * @description In the order of the legend.
+             */
+            groups: components["schemas"]["Group"][];
+            /** Left Out */
+            left_out: components["schemas"]["LeftOut"][];
+            /** Level */
+            level: number;
+            /** Metric */
+            metric: string;
+            /**
+             * Panels
+             * @description In the paper's order of tasks.
+             */
+            panels: components["schemas"]["Panel"][];
+            /**
+             * Runs
+             * @description Runs in the answer.
+             */
+            runs: number;
+            /**
+             * Statistic
+             * @enum {string}
+             */
+            statistic: "median" | "mean" | "iqm" | "seeds";
+            /**
+             * Unread
+             * @description Further runs that pass the filters; only the newest are read.
+             */
+            unread: number;
+            /**
+             * Version
+             * @description Changes when the answer does: the hash of the data that it was computed from.
+             */
+            version: string;
+            words: components["schemas"]["Words"];
+            /**
+             * X
+             * @enum {string}
+             */
+            x: "epoch" | "env_steps" | "episodes" | "updates" | "wall_seconds";
+        };
+        /**
+         * CurveLoss
+         * @description Where a curve loses seeds.
+         */
+        CurveLoss: {
+            /**
+             * After
+             * @description Seeds behind it.
+             */
+            after: number;
+            /**
+             * Before
+             * @description Seeds up to there.
+             */
+            before: number;
+            /**
+             * X
+             * @description The last place that has them all.
+             */
+            x: number;
+            /**
+             * Y
+             * @description The curve's centre there.
+             */
+            y: number | null;
+        };
+        /**
          * Draining
          * @description Whether a worker shall take no further run.
          */
         Draining: {
             /** Draining */
             draining: boolean;
+        };
+        /**
+         * Group
+         * @description Runs that are the same but for their task and seed.
+         */
+        Group: {
+            /**
+             * Color
+             * @description Which colour of the palette it has: its method's, everywhere the same.
+             */
+            color: number;
+            /**
+             * Dash
+             * @description Which dash pattern of the palette it has; variants of a method differ in it.
+             */
+            dash: number;
+            /**
+             * Key
+             * @description Names the group in every record of the answer, and in addresses.
+             */
+            key: string;
+            /**
+             * Label
+             * @description Its name for a person: the method's title, and the variant if there is one.
+             */
+            label: string;
+            /** Method */
+            method: string;
+            /**
+             * Variant
+             * @description What tells it apart from the method's other groups; empty if there is nothing.
+             */
+            variant: string;
+        };
+        /**
+         * GroupCurve
+         * @description What the seeds of one group say in one task. Columns are as long as `x`.
+         */
+        GroupCurve: {
+            /**
+             * Centre
+             * @description Empty when each seed is shown by itself.
+             */
+            centre: (number | null)[];
+            /**
+             * Group
+             * @description The group's key.
+             */
+            group: string;
+            /**
+             * Has Band
+             * @description False if the seeds' own lines are to be drawn: asked for, or too few for a band.
+             */
+            has_band: boolean;
+            /** High */
+            high: (number | null)[];
+            /**
+             * Legend
+             * @description Statistic, number of seeds and level in words.
+             */
+            legend: string;
+            /** Losses */
+            losses: components["schemas"]["CurveLoss"][];
+            /**
+             * Low
+             * @description Lower end of the band; null where it has fewer than three seeds.
+             */
+            low: (number | null)[];
+            /** Members */
+            members: components["schemas"]["Member"][];
+            /**
+             * N
+             * @description Seeds that have logged the metric at all.
+             */
+            n: number;
+            /**
+             * N At
+             * @description Seeds at each place.
+             */
+            n_at: number[];
+            /** X */
+            x: number[];
         };
         /**
          * Health
@@ -613,6 +872,28 @@ export interface components {
             runs: components["schemas"]["RunSummary"][];
         };
         /**
+         * LeftOut
+         * @description A run that was asked for and is not in the answer.
+         */
+        LeftOut: {
+            /**
+             * Group
+             * @description Its group's key.
+             */
+            group: string;
+            /**
+             * Reason
+             * @description Why, in one sentence.
+             */
+            reason: string;
+            /** Run Id */
+            run_id: string;
+            /** Seed */
+            seed: number;
+            /** Task */
+            task: string;
+        };
+        /**
          * LogTail
          * @description A piece of a run's log.
          */
@@ -624,6 +905,32 @@ export interface components {
             offset: number;
             /** Text */
             text: string;
+        };
+        /**
+         * Member
+         * @description One seed of a curve.
+         */
+        Member: {
+            /**
+             * Points
+             * @description How often it has logged the metric.
+             */
+            points: number;
+            /** Run Id */
+            run_id: string;
+            /** Seed */
+            seed: number;
+            state: components["schemas"]["RunState"];
+            /**
+             * X
+             * @description Its own curve, every point of it up to a limit; null if only the aggregate was asked for.
+             */
+            x: number[] | null;
+            /**
+             * Y
+             * @description As long as `x`.
+             */
+            y: number[] | null;
         };
         /**
          * Method
@@ -641,6 +948,32 @@ export interface components {
             phases: ("locomotion" | "manipulation")[];
             /** Summary */
             summary: string;
+            /** Title */
+            title: string;
+        };
+        /**
+         * MethodPair
+         * @description By what two methods differ.
+         */
+        MethodPair: {
+            /** First */
+            first: string;
+            /** Second */
+            second: string;
+            /** Switches */
+            switches: components["schemas"]["MethodSwitch"][];
+        };
+        /**
+         * MethodSwitch
+         * @description One thing by which two methods differ.
+         */
+        MethodSwitch: {
+            /** First */
+            first: string;
+            /** Name */
+            name: string;
+            /** Second */
+            second: string;
             /** Title */
             title: string;
         };
@@ -677,6 +1010,14 @@ export interface components {
             wall_seconds: number[];
         };
         /**
+         * MetricNames
+         * @description What can be compared.
+         */
+        MetricNames: {
+            /** Metrics */
+            metrics: string[];
+        };
+        /**
          * Move
          * @description A new place for a run that waits.
          */
@@ -686,6 +1027,16 @@ export interface components {
              * @description The waiting run that it shall start before; null for the end.
              */
             before: string | null;
+        };
+        /**
+         * Panel
+         * @description One task's curves.
+         */
+        Panel: {
+            /** Curves */
+            curves: components["schemas"]["GroupCurve"][];
+            /** Task */
+            task: string;
         };
         /**
          * PlannedRun
@@ -1080,6 +1431,19 @@ export interface components {
             task: string;
         };
         /**
+         * Setting
+         * @description A setting in which runs differ.
+         */
+        Setting: {
+            /** Name */
+            name: string;
+            /**
+             * Values
+             * @description As text, one a run; null where a run does not have it.
+             */
+            values: (string | null)[];
+        };
+        /**
          * Task
          * @description One task, for the launch form.
          */
@@ -1137,6 +1501,27 @@ export interface components {
              * @description Path of the 3D page, below this server, once ready.
              */
             url: string | null;
+        };
+        /**
+         * Words
+         * @description The view in words, the same on the page, in figures and in tables.
+         */
+        Words: {
+            /**
+             * Metric
+             * @description Label of the vertical axis.
+             */
+            metric: string;
+            /**
+             * Statistic
+             * @description What line and band are, with level.
+             */
+            statistic: string;
+            /**
+             * X
+             * @description Label of the horizontal axis.
+             */
+            x: string;
         };
         /**
          * Worker
@@ -1222,15 +1607,27 @@ export type ActionResults = components['schemas']['ActionResults'];
 export type Attempt = components['schemas']['Attempt'];
 export type Attempts = components['schemas']['Attempts'];
 export type Choices = components['schemas']['Choices'];
+export type ComparedConfig = components['schemas']['ComparedConfig'];
+export type ConfigComparison = components['schemas']['ConfigComparison'];
+export type CurveComparison = components['schemas']['CurveComparison'];
+export type CurveLoss = components['schemas']['CurveLoss'];
 export type Draining = components['schemas']['Draining'];
+export type Group = components['schemas']['Group'];
+export type GroupCurve = components['schemas']['GroupCurve'];
 export type Health = components['schemas']['Health'];
 export type Launch = components['schemas']['Launch'];
 export type LaunchPlan = components['schemas']['LaunchPlan'];
 export type LaunchResult = components['schemas']['LaunchResult'];
+export type LeftOut = components['schemas']['LeftOut'];
 export type LogTail = components['schemas']['LogTail'];
+export type Member = components['schemas']['Member'];
 export type Method = components['schemas']['Method'];
+export type MethodPair = components['schemas']['MethodPair'];
+export type MethodSwitch = components['schemas']['MethodSwitch'];
 export type MetricBatch = components['schemas']['MetricBatch'];
+export type MetricNames = components['schemas']['MetricNames'];
 export type Move = components['schemas']['Move'];
+export type Panel = components['schemas']['Panel'];
 export type PlannedRun = components['schemas']['PlannedRun'];
 export type PresetSummary = components['schemas']['PresetSummary'];
 export type PriorityChange = components['schemas']['PriorityChange'];
@@ -1248,9 +1645,11 @@ export type RunFiles = components['schemas']['RunFiles'];
 export type RunPage = components['schemas']['RunPage'];
 export type RunState = components['schemas']['RunState'];
 export type RunSummary = components['schemas']['RunSummary'];
+export type Setting = components['schemas']['Setting'];
 export type Task = components['schemas']['Task'];
 export type ViewerRequest = components['schemas']['ViewerRequest'];
 export type ViewerSession = components['schemas']['ViewerSession'];
+export type Words = components['schemas']['Words'];
 export type Worker = components['schemas']['Worker'];
 export type WorkerRun = components['schemas']['WorkerRun'];
 export type Workers = components['schemas']['Workers'];
@@ -1272,6 +1671,190 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Choices"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    get_curves: {
+        parameters: {
+            query?: {
+                /** @description Which training is compared. */
+                phase?: "locomotion" | "manipulation";
+                /** @description Repeat for several; none: all. */
+                task?: string[];
+                /** @description Repeat for several; none: all. */
+                method?: string[];
+                /** @description Repeat for several; none: all. */
+                preset?: string[];
+                /** @description Ids of runs, to compare these only. */
+                run?: string[];
+                metric?: string;
+                /** @description What curves are drawn over. */
+                x?: "epoch" | "env_steps" | "episodes" | "updates" | "wall_seconds";
+                /** @description `seeds` shows each by itself. */
+                statistic?: "median" | "mean" | "iqm" | "seeds";
+                /** @description Of confidence intervals. */
+                level?: number;
+                /** @description Whether to add each seed's own curve. */
+                seeds?: boolean;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CurveComparison"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    get_config_comparison: {
+        parameters: {
+            query: {
+                /** @description Ids of runs. */
+                run: string[];
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ConfigComparison"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    list_compared_metrics: {
+        parameters: {
+            query?: {
+                /** @description Which training is compared. */
+                phase?: "locomotion" | "manipulation";
+                /** @description Repeat for several; none: all. */
+                task?: string[];
+                /** @description Repeat for several; none: all. */
+                method?: string[];
+                /** @description Repeat for several; none: all. */
+                preset?: string[];
+                /** @description Ids of runs, to compare these only. */
+                run?: string[];
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MetricNames"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
                 };
             };
             /** @description An error of the service itself. */

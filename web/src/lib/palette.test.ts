@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { lineStyle, methodStyle, type Scheme, STATE_COLORS } from '@/lib/palette';
+import { groupStyle, lineStyle, type Scheme, STATE_COLORS } from '@/lib/palette';
 
 const GROUND: Record<Scheme, string> = { light: '#ffffff', dark: '#1a1d22' };
 const SCHEMES: Scheme[] = ['light', 'dark'];
@@ -33,19 +33,8 @@ test('lines next to each other differ in dash too', () => {
   expect(lineStyle(0, 'light').dash).not.toEqual(lineStyle(1, 'light').dash);
 });
 
-const METHODS = ['ddpg', 'her', 'cher', 'her-dense', 'ddpg-sldr', 'her-rnd', 'her-sldr'];
-
-test.each(SCHEMES)('each method of the paper has a colour and a dash of its own on a %s page', (scheme) => {
-  const styles = METHODS.map((method) => methodStyle(method, scheme));
-  expect(new Set(styles.map(({ color }) => color)).size).toBe(METHODS.length);
-  expect(new Set(styles.map(({ dash }) => dash.join())).size).toBe(METHODS.length);
-});
-
-test('a variant of a method keeps its colour and changes its dash', () => {
-  expect(methodStyle('her', 'light', 1).color).toBe(methodStyle('her', 'light').color);
-  expect(methodStyle('her', 'light', 1).dash).not.toEqual(methodStyle('her', 'light').dash);
-});
-
-test('a method that nobody knows keeps its style', () => {
-  expect(methodStyle('mine', 'dark')).toEqual(methodStyle('mine', 'dark'));
+test.each(SCHEMES)('seven methods have a colour and a dash each on a %s page', (scheme) => {
+  const styles = [0, 1, 2, 3, 4, 5, 6].map((place) => groupStyle({ color: place, dash: place }, scheme));
+  expect(new Set(styles.map(({ color }) => color)).size).toBe(7);
+  expect(new Set(styles.map(({ dash }) => dash.join())).size).toBe(7);
 });

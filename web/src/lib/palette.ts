@@ -24,29 +24,9 @@ export function lineStyle(index: number, scheme: Scheme): LineStyle {
   return { color: colors[index % colors.length] ?? '#888888', dash: DASHES[index % DASHES.length] ?? [] };
 }
 
-/** Where each method stands among the line styles: it looks the same in every chart, on the page and in figures. */
-const METHOD_PLACES: Readonly<Record<string, number>> = {
-  'her-sldr': 0,
-  her: 1,
-  'her-rnd': 2,
-  cher: 3,
-  'her-dense': 4,
-  'ddpg-sldr': 5,
-  ddpg: 6,
-};
-
-/**
- * The style of a method's curve.
- * @param variant tells groups of one method apart that differ in their settings: same colour, another dash
- */
-export function methodStyle(method: string, scheme: Scheme, variant = 0): LineStyle {
-  const place = METHOD_PLACES[method] ?? placeOfUnknown(method);
-  return { color: lineStyle(place, scheme).color, dash: lineStyle(place + variant, scheme).dash };
-}
-
-/** A method that is not in the table gets a style from its name, so it keeps it from day to day. */
-function placeOfUnknown(method: string): number {
-  return [...method].reduce((sum, letter) => (sum * 31 + letter.charCodeAt(0)) % 9973, 7);
+/** The style of a group of runs: the server gives every method a place of its own, the same in all charts and figures. */
+export function groupStyle({ color, dash }: { color: number; dash: number }, scheme: Scheme): LineStyle {
+  return { color: lineStyle(color, scheme).color, dash: lineStyle(dash, scheme).dash };
 }
 
 /** What is not data in a chart. */

@@ -1,11 +1,13 @@
 /** What the compare page shows, as it stands in the address: everything but the place of the mouse. */
 
+import type { Axis } from '@/lib/axes';
+import { MOST_SMOOTHING } from '@/lib/smoothing';
+
 export const TABS = ['curves', 'best'] as const;
 export type Tab = (typeof TABS)[number];
 
 /** What the curves may be drawn over. */
-export const AXES = ['epoch', 'env_steps', 'episodes', 'updates', 'wall_seconds'] as const;
-export type Axis = (typeof AXES)[number];
+export const AXES: readonly Axis[] = ['epoch', 'env_steps', 'episodes', 'updates', 'wall_seconds'];
 
 /** What is made of the seeds of a group. */
 export const STATISTICS = ['median', 'mean', 'iqm', 'seeds'] as const;
@@ -17,9 +19,6 @@ export const USUAL_LEVEL = 0.95;
 
 /** The metric shown unless another is asked for: the one that the methods are judged by. */
 export const USUAL_METRIC = 'test/success_rate';
-
-/** The most that curves may be smoothed. */
-export const MOST_SMOOTHING = 0.99;
 
 /** Ids and names of one value are parted by this. */
 const PART = ',';

@@ -1,0 +1,13 @@
+/** Which runs a question to the server is about. */
+import { type CompareSearch, partsOf } from '../search';
+
+/** The runs that the page is narrowed to, as every route of comparisons takes them. */
+export function choiceOf({ phase, tasks, methods, preset, runs }: CompareSearch) {
+  return {
+    phase,
+    task: [...partsOf(tasks)],
+    method: [...partsOf(methods)],
+    preset: preset === undefined ? [] : [preset],
+    run: [...partsOf(runs)],
+  };
+}
