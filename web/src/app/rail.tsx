@@ -5,9 +5,10 @@ import { SchemeSwitch } from '@/app/scheme-switch';
 import { Icon, type IconName } from '@/components/icon';
 import classes from './shell.module.css';
 
-const PLACES: readonly { to: '/' | '/launch' | '/queue' | '/workers'; label: string; icon: IconName }[] = [
+const PLACES: readonly { to: '/' | '/launch' | '/compare' | '/queue' | '/workers'; label: string; icon: IconName }[] = [
   { to: '/', label: 'Runs', icon: 'runs' },
   { to: '/launch', label: 'New run', icon: 'launch' },
+  { to: '/compare', label: 'Compare', icon: 'chart' },
   { to: '/queue', label: 'Queue', icon: 'queue' },
   { to: '/workers', label: 'Workers', icon: 'workers' },
 ];

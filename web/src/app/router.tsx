@@ -10,6 +10,7 @@ import {
 } from '@tanstack/react-router';
 import { PageBroke, PageNotFound } from '@/app/failures';
 import { Shell } from '@/app/shell';
+import { readCompareSearch } from '@/features/compare/search';
 import { readLaunchSearch } from '@/features/launch/search';
 import { readRunSearch } from '@/features/run/search';
 import { readRunsSearch } from '@/features/runs/search';
@@ -49,10 +50,17 @@ const workers = createRoute({
   component: lazyRouteComponent(() => import('@/features/workers/workers-page'), 'WorkersPage'),
 });
 
+const compare = createRoute({
+  getParentRoute: () => root,
+  path: '/compare',
+  validateSearch: readCompareSearch,
+  component: lazyRouteComponent(() => import('@/features/compare/compare-page'), 'ComparePage'),
+});
+
 /** Make the router; a test hands in a history of its own. */
 export function makeRouter(history?: RouterHistory) {
   return createRouter({
-    routeTree: root.addChildren([runs, launch, run, queue, workers]),
+    routeTree: root.addChildren([runs, launch, run, compare, queue, workers]),
     history,
     defaultNotFoundComponent: PageNotFound,
     defaultErrorComponent: PageBroke,

@@ -1,0 +1,76 @@
+/** Methods over seeds, compared: their curves, and their best models. */
+import { Tabs } from '@mantine/core';
+import { useQuery } from '@tanstack/react-query';
+import { getRouteApi } from '@tanstack/react-router';
+import { useCallback } from 'react';
+import { ButtonLink } from '@/components/anchor-link';
+import { Freshness } from '@/components/freshness';
+import { SentencePanel } from '@/components/sentence-panel';
+import { sentence } from '@/lib/api';
+import { formatPlural } from '@/lib/format';
+import { curvesQuery } from './api/get-curves';
+import { CompareFilters } from './components/compare-filters';
+import { CurvesTab } from './components/curves-tab';
+import type { CompareSearch, Tab } from './search';
+
+const route = getRouteApi('/compare');
+
+type Changes = CompareSearch | ((old: CompareSearch) => CompareSearch);
+
+export function ComparePage() {
+  const search = route.useSearch();
+  const navigate = route.useNavigate();
+  const { data: comparison, error, dataUpdatedAt } = useQuery(curvesQuery(search));
+  const onShow = useCallback(
+    (changes: Changes): void => {
+      void navigate({
+        search: (old) => ({ ...old, ...(typeof changes === 'function' ? changes(old) : changes) }),
+        replace: true,
+        resetScroll: false,
+      });
+    },
+    [navigate],
+  );
+  const tab: Tab = search.tab ?? 'curves';
+  return (
+    <>
+      <title>Compare · SLDR</title>
+      <div className="page-head">
+        <h1>Compare</h1>
+        <span className="faint number">{comparison && formatPlural(comparison.runs, 'run')}</span>
+        <Freshness updatedAt={dataUpdatedAt} />
+      </div>
+      <CompareFilters search={search} onShow={onShow} />
+      {error && (
+        <SentencePanel urgent title="The runs cannot be compared">
+          {sentence(error)}
+        </SentencePanel>
+      )}
+      {comparison && comparison.panels.length === 0 && <NothingToCompare />}
+      {comparison && comparison.panels.length > 0 && (
+        <Tabs
+          value={tab}
+          onChange={(next) => onShow({ tab: next === 'best' ? 'best' : undefined })}
+          keepMounted={false}
+        >
+          <Tabs.List mb="sm">
+            <Tabs.Tab value="curves">Curves</Tabs.Tab>
+            <Tabs.Tab value="best">Best models</Tabs.Tab>
+          </Tabs.List>
+          <Tabs.Panel value="curves">
+            <CurvesTab search={search} comparison={comparison} onShow={onShow} />
+          </Tabs.Panel>
+        </Tabs>
+      )}
+    </>
+  );
+}
+
+function NothingToCompare() {
+  return (
+    <SentencePanel title="No run to compare" actions={<ButtonLink to="/launch">Launch runs</ButtonLink>}>
+      Choose other tasks, methods or another phase above, or launch a task with two methods and three seeds each: bands
+      need three.
+    </SentencePanel>
+  );
+}
