@@ -17,8 +17,20 @@ from backend.api.errors import add_error_answers
 from backend.api.hosts import LOCAL, HostRule, OwnHost
 from backend.api.origins import SameOrigin
 from backend.api.pages import BUILT_PAGE, add_pages
-from backend.api.routes import choices, health, launches, queue, run_actions, run_files, runs, viewer_sessions, workers
+from backend.api.routes import (
+    choices,
+    compare,
+    health,
+    launches,
+    queue,
+    run_actions,
+    run_files,
+    runs,
+    viewer_sessions,
+    workers,
+)
 from backend.api.tokens import ViewerTokens, load_secret
+from backend.comparison.memory import ComparisonMemory
 from backend.store.database import open_database
 from backend.store.settings import Settings
 from backend.store.storage import FileStorage
@@ -58,6 +70,7 @@ def create_app(settings: Settings, page: Path = BUILT_PAGE, hosts: HostRule = LO
         queue,
         workers,
         viewer_sessions,
+        compare,
         viewer_proxy,
     ):
         app.include_router(routes.router)
@@ -80,7 +93,7 @@ def _lifespan(settings: Settings):  # noqa: ANN202 - the decorator's type is lon
         database = open_database(settings)
         with viewer_proxy.viser_client() as viser:
             tokens = ViewerTokens(load_secret(settings.secret_path))
-            app.state.service = Service(settings, database, FileStorage(settings), tokens, viser)
+            app.state.service = Service(settings, database, FileStorage(settings), tokens, viser, ComparisonMemory())
             yield
         database.close()
 

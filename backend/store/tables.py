@@ -23,9 +23,10 @@ from sqlalchemy import (
     Text,
     TypeDecorator,
     false,
+    literal_column,
 )
 
-SCHEMA_REVISION = "0002"
+SCHEMA_REVISION = "0009"
 """The migration that these tables correspond to."""
 
 AnyRow = Row[*tuple[Any, ...]]
@@ -33,6 +34,9 @@ AnyRow = Row[*tuple[Any, ...]]
 
 ID_LENGTH = 32
 NAME_LENGTH = 200
+
+TEST_METRIC_INDEX_CONDITION = "metric_values.name >= 'test/' AND metric_values.name < 'test0'"
+"""Which metrics have an index by name: those of tests, few among many. A query that says so is answered from it."""
 
 
 class UtcDateTime(TypeDecorator[datetime]):
@@ -178,6 +182,16 @@ metric_values = Table(
     Column("name", String(NAME_LENGTH), primary_key=True),
     Column("value", Float, nullable=False),
     sqlite_with_rowid=False,
+)
+
+# A curve of tests over many runs is read from this index alone.
+Index(
+    "ix_metric_values_tests",
+    metric_values.c.name,
+    metric_values.c.step_id,
+    metric_values.c.value,
+    sqlite_where=literal_column(TEST_METRIC_INDEX_CONDITION.replace("metric_values.", "")),
+    postgresql_where=literal_column(TEST_METRIC_INDEX_CONDITION.replace("metric_values.", "")),
 )
 
 run_files = Table(
