@@ -44,6 +44,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/compare/best": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Best Models
+         * @description Compare best test success: bars, improvement, profile and efficiency. Of the view, statistic and level count.
+         */
+        get: operations["get_best_models"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/compare/configs": {
         parameters: {
             query?: never;
@@ -584,6 +604,79 @@ export interface components {
             attempts: components["schemas"]["Attempt"][];
         };
         /**
+         * BestModels
+         * @description The best models of groups of runs, compared.
+         */
+        BestModels: {
+            /** Efficiency */
+            efficiency: components["schemas"]["Efficiency"][];
+            /** Groups */
+            groups: components["schemas"]["Group"][];
+            /** Improvements */
+            improvements: components["schemas"]["Improvement"][];
+            /** Left Out */
+            left_out: components["schemas"]["LeftOut"][];
+            /** Level */
+            level: number;
+            /** Overall */
+            overall: components["schemas"]["OverallScore"][];
+            /**
+             * Overall Tasks
+             * @description The tasks that every group has; `overall` and `profiles` are over them.
+             */
+            overall_tasks: string[];
+            /** Profiles */
+            profiles: components["schemas"]["Profile"][];
+            /** Runs */
+            runs: number;
+            /**
+             * Scores
+             * @description The bars of the paper's figure.
+             */
+            scores: components["schemas"]["BestScore"][];
+            /**
+             * Statistic
+             * @enum {string}
+             */
+            statistic: "median" | "mean" | "iqm" | "seeds";
+            /**
+             * Tables
+             * @description A plain table behind each chart.
+             */
+            tables: components["schemas"]["PlainTable"][];
+            /** Unread */
+            unread: number;
+            /**
+             * Version
+             * @description Changes when the answer does.
+             */
+            version: string;
+            words: components["schemas"]["Words"];
+        };
+        /**
+         * BestScore
+         * @description What the best models of one group reach in one task.
+         */
+        BestScore: {
+            /** Centre */
+            centre: number | null;
+            /** Group */
+            group: string;
+            /** High */
+            high: number | null;
+            /**
+             * Low
+             * @description Lower end of the interval; null below three seeds.
+             */
+            low: number | null;
+            /** N */
+            n: number;
+            /** Seeds */
+            seeds: components["schemas"]["SeedScore"][];
+            /** Task */
+            task: string;
+        };
+        /**
          * Choices
          * @description All that a launch can choose from.
          */
@@ -730,6 +823,47 @@ export interface components {
             draining: boolean;
         };
         /**
+         * Efficiency
+         * @description How much one group needs in one task until a test first reaches a threshold.
+         */
+        Efficiency: {
+            /**
+             * Axis
+             * @enum {string}
+             */
+            axis: "env_steps" | "wall_seconds";
+            /** Group */
+            group: string;
+            /**
+             * High
+             * @description Third quartile, likewise.
+             */
+            high: number | null;
+            /**
+             * Low
+             * @description First quartile, likewise.
+             */
+            low: number | null;
+            /**
+             * Median
+             * @description Null if half of the seeds or more have not reached it.
+             */
+            median: number | null;
+            /** N */
+            n: number;
+            /**
+             * Reached
+             * @description Seeds that have reached it.
+             */
+            reached: number;
+            /** Seeds */
+            seeds: components["schemas"]["SeedReach"][];
+            /** Task */
+            task: string;
+            /** Threshold */
+            threshold: number;
+        };
+        /**
          * Group
          * @description Runs that are the same but for their task and seed.
          */
@@ -827,6 +961,39 @@ export interface components {
             viewer_alive: boolean;
             /** Workers Alive */
             workers_alive: number;
+        };
+        /**
+         * Improvement
+         * @description How probably a run of one group beats a run of another, in a task drawn at random.
+         */
+        Improvement: {
+            /**
+             * First
+             * @description Key of the group that may be better.
+             */
+            first: string;
+            /** High */
+            high: number | null;
+            /**
+             * Low
+             * @description Lower end of the bootstrap interval; null if a task has fewer than three seeds of either.
+             */
+            low: number | null;
+            /**
+             * Probability
+             * @description Ties count half.
+             */
+            probability: number;
+            /**
+             * Second
+             * @description Key of the group that it is compared with.
+             */
+            second: string;
+            /**
+             * Tasks
+             * @description Tasks that both have.
+             */
+            tasks: number;
         };
         /**
          * Launch
@@ -1029,6 +1196,27 @@ export interface components {
             before: string | null;
         };
         /**
+         * OverallScore
+         * @description What the best models of one group reach over all tasks that every group has.
+         */
+        OverallScore: {
+            /** Group */
+            group: string;
+            /** High */
+            high: number | null;
+            /** Iqm */
+            iqm: number | null;
+            /** Low */
+            low: number | null;
+            /**
+             * N
+             * @description Runs, over all tasks.
+             */
+            n: number;
+            /** Tasks */
+            tasks: number;
+        };
+        /**
          * Panel
          * @description One task's curves.
          */
@@ -1037,6 +1225,20 @@ export interface components {
             curves: components["schemas"]["GroupCurve"][];
             /** Task */
             task: string;
+        };
+        /**
+         * PlainTable
+         * @description What a chart shows, as rows.
+         */
+        PlainTable: {
+            /** Columns */
+            columns: components["schemas"]["TableColumn"][];
+            /** Name */
+            name: string;
+            /** Rows */
+            rows: (string | number | null)[][];
+            /** Title */
+            title: string;
         };
         /**
          * PlannedRun
@@ -1107,6 +1309,26 @@ export interface components {
         Problems: {
             /** Problems */
             problems: components["schemas"]["Problem"][];
+        };
+        /**
+         * Profile
+         * @description Which share of a group's runs is better than each threshold, every task weighing the same.
+         */
+        Profile: {
+            /** Group */
+            group: string;
+            /** High */
+            high: (number | null)[];
+            /** Low */
+            low: (number | null)[];
+            /** N */
+            n: number;
+            /** Share */
+            share: number[];
+            /** Tasks */
+            tasks: number;
+            /** Thresholds */
+            thresholds: number[];
         };
         /**
          * Progress
@@ -1431,6 +1653,52 @@ export interface components {
             task: string;
         };
         /**
+         * SeedReach
+         * @description When one seed first reached a threshold.
+         */
+        SeedReach: {
+            /**
+             * Observed
+             * @description How long it has been watched.
+             */
+            observed: number;
+            /**
+             * Reached
+             * @description Null if it has not.
+             */
+            reached: number | null;
+            /** Run Id */
+            run_id: string;
+            /** Seed */
+            seed: number;
+        };
+        /**
+         * SeedScore
+         * @description The best test of one seed.
+         */
+        SeedScore: {
+            /**
+             * Best
+             * @description Its highest value.
+             */
+            best: number;
+            /**
+             * Epoch
+             * @description When it was first reached.
+             */
+            epoch: number;
+            /** Run Id */
+            run_id: string;
+            /** Seed */
+            seed: number;
+            state: components["schemas"]["RunState"];
+            /**
+             * Tests
+             * @description Tests that the highest was taken from.
+             */
+            tests: number;
+        };
+        /**
          * Setting
          * @description A setting in which runs differ.
          */
@@ -1442,6 +1710,14 @@ export interface components {
              * @description As text, one a run; null where a run does not have it.
              */
             values: (string | null)[];
+        };
+        /**
+         * TableColumn
+         * @description One column of a plain table.
+         */
+        TableColumn: {
+            /** Title */
+            title: string;
         };
         /**
          * Task
@@ -1606,15 +1882,19 @@ export type ActionResult = components['schemas']['ActionResult'];
 export type ActionResults = components['schemas']['ActionResults'];
 export type Attempt = components['schemas']['Attempt'];
 export type Attempts = components['schemas']['Attempts'];
+export type BestModels = components['schemas']['BestModels'];
+export type BestScore = components['schemas']['BestScore'];
 export type Choices = components['schemas']['Choices'];
 export type ComparedConfig = components['schemas']['ComparedConfig'];
 export type ConfigComparison = components['schemas']['ConfigComparison'];
 export type CurveComparison = components['schemas']['CurveComparison'];
 export type CurveLoss = components['schemas']['CurveLoss'];
 export type Draining = components['schemas']['Draining'];
+export type Efficiency = components['schemas']['Efficiency'];
 export type Group = components['schemas']['Group'];
 export type GroupCurve = components['schemas']['GroupCurve'];
 export type Health = components['schemas']['Health'];
+export type Improvement = components['schemas']['Improvement'];
 export type Launch = components['schemas']['Launch'];
 export type LaunchPlan = components['schemas']['LaunchPlan'];
 export type LaunchResult = components['schemas']['LaunchResult'];
@@ -1627,12 +1907,15 @@ export type MethodSwitch = components['schemas']['MethodSwitch'];
 export type MetricBatch = components['schemas']['MetricBatch'];
 export type MetricNames = components['schemas']['MetricNames'];
 export type Move = components['schemas']['Move'];
+export type OverallScore = components['schemas']['OverallScore'];
 export type Panel = components['schemas']['Panel'];
+export type PlainTable = components['schemas']['PlainTable'];
 export type PlannedRun = components['schemas']['PlannedRun'];
 export type PresetSummary = components['schemas']['PresetSummary'];
 export type PriorityChange = components['schemas']['PriorityChange'];
 export type Problem = components['schemas']['Problem'];
 export type Problems = components['schemas']['Problems'];
+export type Profile = components['schemas']['Profile'];
 export type Progress = components['schemas']['Progress'];
 export type Queue = components['schemas']['Queue'];
 export type QueueEntry = components['schemas']['QueueEntry'];
@@ -1645,7 +1928,10 @@ export type RunFiles = components['schemas']['RunFiles'];
 export type RunPage = components['schemas']['RunPage'];
 export type RunState = components['schemas']['RunState'];
 export type RunSummary = components['schemas']['RunSummary'];
+export type SeedReach = components['schemas']['SeedReach'];
+export type SeedScore = components['schemas']['SeedScore'];
 export type Setting = components['schemas']['Setting'];
+export type TableColumn = components['schemas']['TableColumn'];
 export type Task = components['schemas']['Task'];
 export type ViewerRequest = components['schemas']['ViewerRequest'];
 export type ViewerSession = components['schemas']['ViewerSession'];
@@ -1729,6 +2015,73 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["CurveComparison"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    get_best_models: {
+        parameters: {
+            query?: {
+                /** @description Which training is compared. */
+                phase?: "locomotion" | "manipulation";
+                /** @description Repeat for several; none: all. */
+                task?: string[];
+                /** @description Repeat for several; none: all. */
+                method?: string[];
+                /** @description Repeat for several; none: all. */
+                preset?: string[];
+                /** @description Ids of runs, to compare these only. */
+                run?: string[];
+                metric?: string;
+                /** @description What curves are drawn over. */
+                x?: "epoch" | "env_steps" | "episodes" | "updates" | "wall_seconds";
+                /** @description `seeds` shows each by itself. */
+                statistic?: "median" | "mean" | "iqm" | "seeds";
+                /** @description Of confidence intervals. */
+                level?: number;
+                /** @description Whether to add each seed's own curve. */
+                seeds?: boolean;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["BestModels"];
                 };
             };
             /** @description A field or setting cannot work. */
