@@ -19,11 +19,14 @@ const LARGE = 300;
 const FEW = 2;
 
 export function PanelGrid({ panels, view, tables, onTable }: Props) {
-  const height = panels.length <= FEW ? LARGE : HEIGHT;
+  const isFew = panels.length <= FEW;
+  const height = isFew ? LARGE : HEIGHT;
+  // Many panels are all of one width, so that their x axes can be compared.
+  const fill = { '--fill': isFew ? 'auto-fit' : 'auto-fill' } as React.CSSProperties;
   return byFamily(panels).map(({ title, things }) => (
     <section key={title} className={classes.family} aria-label={title}>
       <h2>{title}</h2>
-      <div className={classes.grid}>
+      <div className={classes.grid} style={fill}>
         {things.map((panel) => (
           <PanelCard
             key={panel.task}

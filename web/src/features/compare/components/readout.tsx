@@ -1,4 +1,5 @@
 /** What the curves of a panel are at the cursor, the highest first. */
+import { useState } from 'react';
 import { LineSwatch } from '@/components/line-swatch';
 import { AXIS_NAMES, formatX } from '@/lib/axes';
 import { type Curve, rowAt, type Values } from '@/lib/curves';
@@ -53,8 +54,18 @@ interface Props {
 export function Readout({ curves, place, view: { axis, isShare, emphasis, range } }: Props) {
   const readings = readingsAt(curves, place);
   const isLeft = place > (range[0] + range[1]) / 2;
+  const [box, setBox] = useState<HTMLDivElement | null>(null);
+  // It stands beside the plot, so that it covers nothing of it: below, or above where the screen ends.
+  const plot = box?.parentElement?.getBoundingClientRect();
+  const isAbove = plot !== undefined && plot.bottom + (box?.offsetHeight ?? 0) > window.innerHeight;
   return (
-    <div className={classes.readout} data-left={isLeft || undefined} aria-hidden="true">
+    <div
+      ref={setBox}
+      className={classes.readout}
+      data-left={isLeft || undefined}
+      data-above={isAbove || undefined}
+      aria-hidden="true"
+    >
       <p className="faint number">
         {AXIS_NAMES[axis].toLowerCase()} {formatX(axis, place)}
       </p>
