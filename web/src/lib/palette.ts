@@ -29,6 +29,23 @@ export function groupStyle({ color, dash }: { color: number; dash: number }, sch
   return { color: lineStyle(color, scheme).color, dash: lineStyle(dash, scheme).dash };
 }
 
+/** Stripes and dots for what is filled, one for each dash pattern of lines; `ink` stands for the colour. */
+const FILLS: readonly string[] = [
+  'linear-gradient(ink, ink)',
+  'repeating-linear-gradient(45deg, ink 0 3px, transparent 3px 6px)',
+  'repeating-linear-gradient(0deg, ink 0 2px, transparent 2px 5px)',
+  'repeating-linear-gradient(-45deg, ink 0 3px, transparent 3px 6px)',
+  'repeating-linear-gradient(90deg, ink 0 2px, transparent 2px 5px)',
+  'repeating-linear-gradient(45deg, ink 0 1px, transparent 1px 5px), repeating-linear-gradient(-45deg, ink 0 1px, transparent 1px 5px)',
+  'radial-gradient(ink 1.2px, transparent 1.6px) 0 0 / 5px 5px',
+];
+
+/** The background of a bar that stands for a group: its colour for most, a pattern for all. */
+export function groupFill({ color, dash }: { color: number; dash: number }, scheme: Scheme): string {
+  const ink = lineStyle(color, scheme).color;
+  return `${(FILLS[dash % FILLS.length] ?? '').replaceAll('ink', ink)}, ${ink}55`;
+}
+
 /** What is not data in a chart. */
 export const CHART_INK: Readonly<Record<Scheme, { text: string; grid: string; mark: string }>> = {
   light: { text: '#5c6370', grid: '#eceef1', mark: '#7a4894' },

@@ -9,6 +9,7 @@ import { SentencePanel } from '@/components/sentence-panel';
 import { sentence } from '@/lib/api';
 import { formatPlural } from '@/lib/format';
 import { curvesQuery } from './api/get-curves';
+import { BestTab } from './components/best-tab';
 import { CompareFilters } from './components/compare-filters';
 import { CurvesTab } from './components/curves-tab';
 import type { CompareSearch, Tab } from './search';
@@ -59,6 +60,9 @@ export function ComparePage() {
           </Tabs.List>
           <Tabs.Panel value="curves">
             <CurvesTab search={search} comparison={comparison} onShow={onShow} />
+          </Tabs.Panel>
+          <Tabs.Panel value="best">
+            <BestTab search={search} onShow={onShow} />
           </Tabs.Panel>
         </Tabs>
       )}

@@ -17,6 +17,12 @@ export type Statistic = (typeof STATISTICS)[number];
 export const LEVELS = [0.8, 0.9, 0.95, 0.99] as const;
 export const USUAL_LEVEL = 0.95;
 
+/** What is counted until a test first reaches a success, and which success. */
+export const EFFORTS = ['env_steps', 'wall_seconds'] as const;
+export type Effort = (typeof EFFORTS)[number];
+export const REACHED = [0.5, 0.8, 0.9] as const;
+export const USUAL_REACHED = 0.8;
+
 /** The metric shown unless another is asked for: the one that the methods are judged by. */
 export const USUAL_METRIC = 'test/success_rate';
 
@@ -48,7 +54,10 @@ export interface CompareSearch {
   /** The part of the x axis that is shown. */
   readonly from?: number;
   readonly to?: number;
-  /** Tasks whose numbers are shown as a table. */
+  /** How efficiency is counted. */
+  readonly effort?: Effort;
+  readonly reached?: number;
+  /** Tasks, and figures of best models, whose numbers are shown as a table. */
   readonly tables?: string;
 }
 
@@ -88,6 +97,8 @@ export function readCompareSearch(raw: Record<string, unknown>): CompareSearch {
     pin: text('pin'),
     from: isWindow ? from : undefined,
     to: isWindow ? to : undefined,
+    effort: EFFORTS.find((effort) => effort === raw.effort),
+    reached: REACHED.find((known) => known === number('reached')),
     tables: text('tables'),
   };
 }

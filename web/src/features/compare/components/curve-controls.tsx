@@ -1,26 +1,17 @@
 /** How the curves are looked at: metric, statistic, axes, smoothing. */
-import { Button, Checkbox, SegmentedControl, Select } from '@mantine/core';
+import { Button, Checkbox, Select } from '@mantine/core';
 import { useQuery } from '@tanstack/react-query';
 import { SmoothingSlider } from '@/components/smoothing-slider';
 import { AXIS_NAMES, type Axis } from '@/lib/axes';
 import { comparedMetricsQuery } from '../api/get-curves';
-import { AXES, type CompareSearch, LEVELS, STATISTICS, type Statistic, USUAL_LEVEL, USUAL_METRIC } from '../search';
+import { AXES, type CompareSearch, USUAL_METRIC } from '../search';
 import classes from './controls.module.css';
+import { StatisticControls } from './statistic-controls';
 
 interface Props {
   search: CompareSearch;
   onShow: (changes: CompareSearch) => void;
 }
-
-const STATISTIC_NAMES: Record<Statistic, string> = {
-  median: 'Median',
-  mean: 'Mean',
-  iqm: 'IQM',
-  seeds: 'Each seed',
-};
-
-/** Statistics whose band is an interval of confidence, so that its level can be chosen. */
-const WITH_LEVEL: readonly Statistic[] = ['mean', 'iqm'];
 
 export function CurveControls({ search, onShow }: Props) {
   const statistic = search.statistic ?? 'median';
@@ -38,14 +29,7 @@ export function CurveControls({ search, onShow }: Props) {
         value={metric}
         onChange={(next) => onShow({ metric: next === USUAL_METRIC ? undefined : (next ?? undefined) })}
       />
-      <SegmentedControl
-        size="xs"
-        aria-label="Statistic"
-        value={statistic}
-        onChange={(next) => onShow({ statistic: next === 'median' ? undefined : (next as Statistic) })}
-        data={STATISTICS.map((value) => ({ value, label: STATISTIC_NAMES[value] }))}
-      />
-      {WITH_LEVEL.includes(statistic) && <LevelChoice level={search.level} onShow={onShow} />}
+      <StatisticControls search={search} onShow={onShow} />
       <Select
         size="xs"
         w={118}
@@ -79,19 +63,6 @@ export function CurveControls({ search, onShow }: Props) {
         </Button>
       )}
     </div>
-  );
-}
-
-function LevelChoice({ level, onShow }: { level: number | undefined; onShow: Props['onShow'] }) {
-  return (
-    <Select
-      size="xs"
-      w={128}
-      aria-label="Confidence level"
-      data={LEVELS.map((value) => ({ value: String(value), label: `${value * 100} % interval` }))}
-      value={String(level ?? USUAL_LEVEL)}
-      onChange={(next) => onShow({ level: Number(next) === USUAL_LEVEL ? undefined : Number(next) })}
-    />
   );
 }
 
