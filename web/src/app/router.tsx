@@ -10,7 +10,7 @@ import {
 } from '@tanstack/react-router';
 import { PageBroke, PageNotFound } from '@/app/failures';
 import { Shell } from '@/app/shell';
-import { readCompareSearch } from '@/features/compare/search';
+import { readCompareSearch, readConfigsSearch } from '@/features/compare/search';
 import { readLaunchSearch } from '@/features/launch/search';
 import { readRunSearch } from '@/features/run/search';
 import { readRunsSearch } from '@/features/runs/search';
@@ -57,10 +57,17 @@ const compare = createRoute({
   component: lazyRouteComponent(() => import('@/features/compare/compare-page'), 'ComparePage'),
 });
 
+const configs = createRoute({
+  getParentRoute: () => root,
+  path: '/compare/configs',
+  validateSearch: readConfigsSearch,
+  component: lazyRouteComponent(() => import('@/features/compare/configs-page'), 'ConfigsPage'),
+});
+
 /** Make the router; a test hands in a history of its own. */
 export function makeRouter(history?: RouterHistory) {
   return createRouter({
-    routeTree: root.addChildren([runs, launch, run, compare, queue, workers]),
+    routeTree: root.addChildren([runs, launch, run, compare, configs, queue, workers]),
     history,
     defaultNotFoundComponent: PageNotFound,
     defaultErrorComponent: PageBroke,

@@ -62,7 +62,7 @@ function drawSeeds(
 ): void {
   const isAlone = centre.length === 0;
   for (const { runId, x, y, raw } of seeds) {
-    const strength = isFaded(key, runId, emphasis) ? FADED : isAlone || emphasis?.runId === runId ? 0.9 : SEED;
+    const strength = isFaded(key, runId, emphasis) ? FADED / 2 : isAlone || emphasis?.runId === runId ? 0.9 : SEED;
     if (isSmoothed && isAlone) drawLine(pen, x, raw, { color: style.color, dash: [] }, 1, strength * RAW);
     drawLine(pen, x, y, isAlone ? style : { color: style.color, dash: [] }, isAlone ? 1.3 : 1, strength);
   }

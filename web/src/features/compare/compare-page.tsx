@@ -3,6 +3,7 @@ import { Tabs } from '@mantine/core';
 import { useQuery } from '@tanstack/react-query';
 import { getRouteApi } from '@tanstack/react-router';
 import { useCallback } from 'react';
+import type { CurveComparison } from '@/client/schema.gen';
 import { ButtonLink } from '@/components/anchor-link';
 import { Freshness } from '@/components/freshness';
 import { SentencePanel } from '@/components/sentence-panel';
@@ -15,6 +16,9 @@ import { CurvesTab } from './components/curves-tab';
 import type { CompareSearch, Tab } from './search';
 
 const route = getRouteApi('/compare');
+
+/** As many columns as a table of settings is readable with. */
+const MOST_EXAMPLES = 10;
 
 type Changes = CompareSearch | ((old: CompareSearch) => CompareSearch);
 
@@ -40,6 +44,17 @@ export function ComparePage() {
         <h1>Compare</h1>
         <span className="faint number">{comparison && formatPlural(comparison.runs, 'run')}</span>
         <Freshness updatedAt={dataUpdatedAt} />
+        {comparison && comparison.groups.length > 1 && (
+          <ButtonLink
+            to="/compare/configs"
+            search={{ runs: examples(comparison) }}
+            variant="default"
+            size="xs"
+            ml="auto"
+          >
+            What differs
+          </ButtonLink>
+        )}
       </div>
       <CompareFilters search={search} onShow={onShow} />
       {error && (
@@ -68,6 +83,15 @@ export function ComparePage() {
       )}
     </>
   );
+}
+
+/** A run of each group, to tell by what the groups differ. */
+function examples({ groups, panels }: CurveComparison): string {
+  const curves = panels.flatMap((panel) => panel.curves);
+  return groups
+    .flatMap(({ key }) => curves.find(({ group }) => group === key)?.members[0]?.run_id ?? [])
+    .slice(0, MOST_EXAMPLES)
+    .join(',');
 }
 
 function NothingToCompare() {

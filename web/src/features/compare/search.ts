@@ -103,6 +103,15 @@ export function readCompareSearch(raw: Record<string, unknown>): CompareSearch {
   };
 }
 
+/** Which runs' configs are compared. */
+export interface ConfigsSearch {
+  readonly runs?: string;
+}
+
+export function readConfigsSearch(raw: Record<string, unknown>): ConfigsSearch {
+  return { runs: readCompareSearch(raw).runs };
+}
+
 /** The parts of a value that names several things. */
 export function partsOf(value: string | undefined): readonly string[] {
   return value === undefined ? [] : value.split(PART).filter((part) => part !== '');
