@@ -29,15 +29,15 @@ export function groupStyle({ color, dash }: { color: number; dash: number }, sch
   return { color: lineStyle(color, scheme).color, dash: lineStyle(dash, scheme).dash };
 }
 
-/** Stripes and dots for what is filled, one for each dash pattern of lines; `ink` stands for the colour. */
+/** Stripes and dots for what is filled, one for each dash pattern of lines, as in exported figures; `ink` stands for the colour. */
 const FILLS: readonly string[] = [
   'linear-gradient(ink, ink)',
-  'repeating-linear-gradient(45deg, ink 0 3px, transparent 3px 6px)',
-  'repeating-linear-gradient(0deg, ink 0 2px, transparent 2px 5px)',
   'repeating-linear-gradient(-45deg, ink 0 3px, transparent 3px 6px)',
-  'repeating-linear-gradient(90deg, ink 0 2px, transparent 2px 5px)',
-  'repeating-linear-gradient(45deg, ink 0 1px, transparent 1px 5px), repeating-linear-gradient(-45deg, ink 0 1px, transparent 1px 5px)',
   'radial-gradient(ink 1.2px, transparent 1.6px) 0 0 / 5px 5px',
+  'repeating-linear-gradient(45deg, ink 0 3px, transparent 3px 6px)',
+  'repeating-linear-gradient(45deg, ink 0 1px, transparent 1px 5px), repeating-linear-gradient(-45deg, ink 0 1px, transparent 1px 5px)',
+  'repeating-linear-gradient(0deg, ink 0 2px, transparent 2px 5px)',
+  'repeating-linear-gradient(90deg, ink 0 2px, transparent 2px 5px)',
 ];
 
 /** The background of a bar that stands for a group: its colour for most, a pattern for all. */

@@ -12,7 +12,9 @@ import { formatPlural } from '@/lib/format';
 import { curvesQuery } from './api/get-curves';
 import { BestTab } from './components/best-tab';
 import { CompareFilters } from './components/compare-filters';
+import classes from './components/controls.module.css';
 import { CurvesTab } from './components/curves-tab';
+import { ExportMenu } from './components/export-menu';
 import type { CompareSearch, Tab } from './search';
 
 const route = getRouteApi('/compare');
@@ -44,16 +46,15 @@ export function ComparePage() {
         <h1>Compare</h1>
         <span className="faint number">{comparison && formatPlural(comparison.runs, 'run')}</span>
         <Freshness updatedAt={dataUpdatedAt} />
-        {comparison && comparison.groups.length > 1 && (
-          <ButtonLink
-            to="/compare/configs"
-            search={{ runs: examples(comparison) }}
-            variant="default"
-            size="xs"
-            ml="auto"
-          >
-            What differs
-          </ButtonLink>
+        {comparison && comparison.panels.length > 0 && (
+          <div className={classes.heads}>
+            {comparison.groups.length > 1 && (
+              <ButtonLink to="/compare/configs" search={{ runs: examples(comparison) }} variant="default" size="xs">
+                What differs
+              </ButtonLink>
+            )}
+            <ExportMenu search={search} />
+          </div>
         )}
       </div>
       <CompareFilters search={search} onShow={onShow} />
