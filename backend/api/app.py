@@ -20,12 +20,14 @@ from backend.api.pages import BUILT_PAGE, add_pages
 from backend.api.routes import (
     choices,
     compare,
+    compare_exports,
     health,
     launches,
     queue,
     run_actions,
     run_files,
     runs,
+    studies,
     viewer_sessions,
     workers,
 )
@@ -64,6 +66,7 @@ def create_app(settings: Settings, page: Path = BUILT_PAGE, hosts: HostRule = LO
         health,
         choices,
         launches,
+        studies,
         run_actions,
         runs,
         run_files,
@@ -71,6 +74,7 @@ def create_app(settings: Settings, page: Path = BUILT_PAGE, hosts: HostRule = LO
         workers,
         viewer_sessions,
         compare,
+        compare_exports,
         viewer_proxy,
     ):
         app.include_router(routes.router)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from dataclasses import dataclass
+from typing import Annotated, Literal
 
 from fastapi import Depends, Query
 
 from backend.comparison.curves import SUCCESS_RATE, CurveView
 from backend.comparison.records import Axis, Statistic
+from backend.figures.styles import Width
 from backend.store.compared_runs import RunChoice
 from sldr_core.config import Phase
 
@@ -16,6 +18,17 @@ NAMES_AT_MOST = 500
 
 LONGEST_NAME = 200
 """As the store's columns."""
+
+
+@dataclass(frozen=True)
+class Look:
+    """Say what a figure shows and how large."""
+
+    kind: Literal["curves", "best"]
+    width: Width
+    log_x: bool
+    log_y: bool
+
 
 Names = Annotated[list[str], Query(max_length=NAMES_AT_MOST)]
 
@@ -26,9 +39,12 @@ def read_choice(
     method: Annotated[Names, Query(description="Repeat for several; none: all.")] = [],  # noqa: B006
     preset: Annotated[Names, Query(description="Repeat for several; none: all.")] = [],  # noqa: B006
     run: Annotated[Names, Query(description="Ids of runs, to compare these only.")] = [],  # noqa: B006
+    study: Annotated[
+        str | None, Query(max_length=LONGEST_NAME, description="Id of a study, for its runs only.")
+    ] = None,
 ) -> RunChoice:
     """Return which runs are compared."""
-    return RunChoice(phase=phase, tasks=task, methods=method, presets=preset, run_ids=run)
+    return RunChoice(phase=phase, tasks=task, methods=method, presets=preset, run_ids=run, study_id=study)
 
 
 def read_view(
@@ -42,5 +58,18 @@ def read_view(
     return CurveView(metric=metric, x=x, statistic=statistic, level=level, with_seeds=seeds)
 
 
+def read_look(
+    kind: Annotated[
+        Literal["curves", "best"], Query(description="Learning curves, or bars of best models.")
+    ] = "curves",
+    width: Annotated[Width, Query(description="One column of a paper, both, or a slide.")] = "double",
+    log_x: bool = False,
+    log_y: bool = False,
+) -> Look:
+    """Return what a figure looks like."""
+    return Look(kind=kind, width=width, log_x=log_x, log_y=log_y)
+
+
 Choice = Annotated[RunChoice, Depends(read_choice)]
 View = Annotated[CurveView, Depends(read_view)]
+FigureLook = Annotated[Look, Depends(read_look)]

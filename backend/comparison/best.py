@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from itertools import permutations
+from itertools import combinations
 from typing import Literal
 
 import numpy as np
@@ -74,9 +74,8 @@ def compare_best(db: Database, memory: ComparisonMemory, choice: RunChoice, view
 def _compare(selection: Selection, view: CurveView, version: str) -> BestModels:
     grouping = selection.group()
     points = selection.memory.curves(selection.db, selection.runs, SUCCESS_RATE).curves
-    cells = {
-        cell: tested for cell, runs in grouping.cells.items() if (tested := [r for r in runs if len(points[r.id])])
-    }
+    tested = {cell: [run for run in runs if len(points[run.id])] for cell, runs in grouping.cells.items()}
+    cells = {cell: runs for cell, runs in tested.items() if runs}
     scored = _Scored(grouping, cells, points)
     groups = [group.key for group in grouping.groups if any(key == group.key for _, key in cells)]
     common = scored.tasks_of(*groups) if groups else []
@@ -153,15 +152,31 @@ def _overall(scored: _Scored, group: str, tasks: Sequence[str], level: float) ->
 
 def _improvements(scored: _Scored, groups: Sequence[str], level: float) -> list[Improvement]:
     found: list[Improvement] = []
-    for first, second in permutations(groups, 2):
+    for first, second in combinations(groups, 2):
         tasks = scored.tasks_of(first, second)
-        if not tasks:
-            continue
-        one, other = ([scored.scores(task, group) for task in tasks] for group in (first, second))
-        estimate = probability_of_improvement(one, other, level)
-        low, high = _interval(estimate, [*one, *other])
-        found.append(Improvement(first, second, len(tasks), float(estimate.value), low, high))
+        if tasks:
+            found += _improvement_both_ways(scored, first, second, tasks, level)
     return found
+
+
+def _improvement_both_ways(
+    scored: _Scored, first: str, second: str, tasks: Sequence[str], level: float
+) -> list[Improvement]:
+    one, other = ([scored.scores(task, group) for task in tasks] for group in (first, second))
+    estimate = probability_of_improvement(one, other, level)
+    low, high = _interval(estimate, [*one, *other])
+    probability = float(estimate.value)
+    return [
+        Improvement(first, second, len(tasks), probability, low, high),
+        Improvement(
+            second,
+            first,
+            len(tasks),
+            1.0 - probability,
+            None if high is None else 1.0 - high,
+            None if low is None else 1.0 - low,
+        ),
+    ]
 
 
 def _profile(scored: _Scored, group: str, tasks: Sequence[str], level: float) -> Profile:

@@ -51,9 +51,8 @@ def _scores(scores: Sequence[BestScore], labels: dict[str, str]) -> PlainTable:
         ]
         for score in scores
     ]
-    return _table(
-        "scores", "Best test success", ("Task", "Method", "Seeds", "Centre", "Low", "High", "Each seed"), rows
-    )
+    columns = ("Task", "Method", "Seeds", "Centre", "Low", "High", "Each seed")
+    return _table("scores", "Best test success", columns, rows)
 
 
 def _overall(overall: Sequence[OverallScore], labels: dict[str, str]) -> PlainTable:

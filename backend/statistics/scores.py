@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -73,11 +74,13 @@ def performance_profile(scores: Sequence[Floats], thresholds: Floats, level: flo
     return _estimate(np.mean([task.mean(axis=0) for task in above], axis=0), replicates, level)
 
 
+@lru_cache(maxsize=256)
 def _members(n: int, task: int, side: int) -> NDArray[np.int64]:
     """Return which runs of a task each draw holds `[R, N_m]`; draws of two sides do not depend on each other."""
     return np.random.default_rng([BOOTSTRAP_SEED, task, side]).integers(n, size=(RESAMPLES, n))
 
 
+@lru_cache(maxsize=256)
 def _weights(n: int, task: int, side: int) -> Floats:
     """Return the share of each run in each draw `[R, N_m]`."""
     counts = (_members(n, task, side)[:, :, None] == np.arange(n)).sum(axis=1)

@@ -6,11 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from sqlalchemy import ColumnElement, Connection, func, select
+from sqlalchemy import ColumnElement, Connection, func, or_, select
 
 from backend.store.database import Database
+from backend.store.errors import NotFound
 from backend.store.states import RunState
-from backend.store.tables import AnyRow, metric_steps, runs
+from backend.store.tables import AnyRow, metric_steps, run_needs, runs, studies, study_runs
 from sldr_core.config import Phase
 
 RUNS_AT_MOST = 2000
@@ -28,6 +29,8 @@ class RunChoice:
     methods: Sequence[str] = ()
     presets: Sequence[str] = ()
     run_ids: Sequence[str] = ()
+    study_id: str | None = None
+    """Only runs of this study, or the locomotion runs that they need."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +62,11 @@ class ComparedRuns:
 
 
 def find_compared_runs(db: Database, choice: RunChoice) -> ComparedRuns:
-    """Return the runs that a comparison is about."""
+    """Return the runs that a comparison is about.
+
+    Raises:
+        NotFound: there is no such study.
+    """
     conditions = _conditions(choice)
     newest = (
         select(func.max(metric_steps.c.id))
@@ -71,6 +78,7 @@ def find_compared_runs(db: Database, choice: RunChoice) -> ComparedRuns:
     columns = [runs.c[name] for name in _COLUMNS]
     query = select(*columns, newest).where(*conditions).order_by(runs.c.number.desc()).limit(RUNS_AT_MOST)
     with db.read() as conn:
+        _check_study(conn, choice.study_id)
         rows = conn.execute(query).all()
         total = len(rows) if len(rows) < RUNS_AT_MOST else _count(conn, conditions)
     return ComparedRuns([_compared_run(row) for row in reversed(rows)], total)
@@ -96,7 +104,23 @@ def _conditions(choice: RunChoice) -> list[ColumnElement[bool]]:
     conditions: list[ColumnElement[bool]] = [runs.c[name].in_(list(names)) for name, names in asked.items() if names]
     if choice.phase is not None:
         conditions.append(runs.c.phase == choice.phase)
+    if choice.study_id is not None:
+        conditions.append(_is_of_study(choice.study_id))
     return [*conditions, runs.c.deleted_at.is_(None)]
+
+
+def _is_of_study(study_id: str) -> ColumnElement[bool]:
+    members = select(study_runs.c.run_id).where(study_runs.c.study_id == study_id)
+    needed = select(run_needs.c.needs_run_id).where(run_needs.c.run_id.in_(members))
+    return or_(runs.c.id.in_(members), runs.c.id.in_(needed))
+
+
+def _check_study(conn: Connection, study_id: str | None) -> None:
+    if study_id is None:
+        return
+    query = select(studies.c.id).where(studies.c.id == study_id, studies.c.deleted_at.is_(None))
+    if conn.execute(query).one_or_none() is None:
+        raise NotFound("study", study_id)
 
 
 def _count(conn: Connection, conditions: Sequence[ColumnElement[bool]]) -> int:

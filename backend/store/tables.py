@@ -247,3 +247,28 @@ viewer_sessions = Table(
     Column("touched_at", UtcDateTime, nullable=False),
     Column("ended_at", UtcDateTime),
 )
+
+studies = Table(
+    "studies",
+    metadata,
+    Column("number", Integer, primary_key=True, autoincrement=True),
+    Column("id", String(ID_LENGTH), nullable=False, unique=True),
+    Column("name", String(NAME_LENGTH), nullable=False),
+    Column("note", Text, nullable=False),
+    Column("preset", String(NAME_LENGTH), nullable=False),
+    Column("spec", JSON, nullable=False),
+    Column("created_at", UtcDateTime, nullable=False),
+    Column("deleted_at", UtcDateTime),
+)
+
+study_runs = Table(
+    "study_runs",
+    metadata,
+    Column("study_id", String(ID_LENGTH), ForeignKey("studies.id"), primary_key=True),
+    Column("task", String(NAME_LENGTH), primary_key=True),
+    Column("method", String(NAME_LENGTH), primary_key=True),
+    Column("variant", String(NAME_LENGTH), primary_key=True),
+    Column("seed", BigInteger, primary_key=True, autoincrement=False),
+    Column("run_id", String(ID_LENGTH), ForeignKey("runs.id"), nullable=False, index=True),
+)
+"""Which run stands at which place of a study: one at most, so that no place is trained twice."""

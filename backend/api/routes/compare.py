@@ -22,19 +22,19 @@ CONFIGS_AT_MOST = 50
 router = APIRouter(prefix="/api/compare", tags=["compare"])
 
 
-@router.get("", responses=problem_responses(422))
+@router.get("", responses=problem_responses(404, 422))
 def get_curves(choice: Choice, view: View, store: Store, memory: Memory) -> CurveComparison:
     """Return learning curves, one panel a task, one curve a group of seeds."""
     return compare_curves(store, memory, choice, view)
 
 
-@router.get("/best", responses=problem_responses(422))
+@router.get("/best", responses=problem_responses(404, 422))
 def get_best_models(choice: Choice, view: View, store: Store, memory: Memory) -> BestModels:
     """Compare best test success: bars, improvement, profile and efficiency. Of the view, statistic and level count."""
     return compare_best(store, memory, choice, view)
 
 
-@router.get("/metrics", responses=problem_responses(422))
+@router.get("/metrics", responses=problem_responses(404, 422))
 def list_compared_metrics(choice: Choice, store: Store, memory: Memory) -> MetricNames:
     """List the metrics that runs have logged."""
     return MetricNames(metrics=list_metric_names(store, select_runs(store, memory, choice).runs))

@@ -64,6 +64,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/compare/bundle.zip": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Bundle
+         * @description Send figures, numbers, configs, versions, seeds and references in one archive.
+         */
+        get: operations["get_bundle"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/compare/configs": {
         parameters: {
             query?: never;
@@ -76,6 +96,26 @@ export interface paths {
          * @description Return the settings in which runs differ, and the switches between their methods.
          */
         get: operations["get_config_comparison"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/compare/figure.{format}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Figure
+         * @description Draw a comparison, or send the numbers that would be drawn.
+         */
+        get: operations["get_figure"];
         put?: never;
         post?: never;
         delete?: never;
@@ -398,6 +438,178 @@ export interface paths {
          * @description Put a waiting run before another one, or at the end of the queue.
          */
         post: operations["move_run"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/studies": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Studies
+         * @description List studies, the newest first.
+         */
+        get: operations["list_studies"];
+        put?: never;
+        /**
+         * Create Study
+         * @description Make a study and queue the runs that nothing serves yet.
+         */
+        post: operations["create_study"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/studies/preview": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Preview Study
+         * @description Tell what launching a study, or a longer spec of one, would do and cost; queue nothing.
+         */
+        post: operations["preview_study"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/studies/templates": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Study Templates
+         * @description List the studies that come with the product: the paper's, its families, and one of two minutes.
+         */
+        get: operations["list_study_templates"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/studies/{study_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Study
+         * @description Return a study with all its cells.
+         */
+        get: operations["get_study"];
+        put?: never;
+        post?: never;
+        /**
+         * Delete Study
+         * @description Hide a study; its runs stay as they are.
+         */
+        delete: operations["delete_study"];
+        options?: never;
+        head?: never;
+        /**
+         * Change Study
+         * @description Give a study another name or note.
+         */
+        patch: operations["change_study"];
+        trace?: never;
+    };
+    "/api/studies/{study_id}/extend": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Extend Study
+         * @description Add tasks, methods or seeds to a study, and queue every run that it then misses.
+         */
+        post: operations["extend_study"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/studies/{study_id}/fill": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Fill Study
+         * @description Queue the runs that a study misses; asked again, it finds nothing to do.
+         */
+        post: operations["fill_study"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/studies/{study_id}/restore": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Restore Study
+         * @description Bring back a deleted study.
+         */
+        post: operations["restore_study"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/studies/{study_id}/retry": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Retry Study
+         * @description Try a study's failed or cancelled runs again, and first the locomotion runs that they need.
+         */
+        post: operations["retry_study"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1241,6 +1453,42 @@ export interface components {
             title: string;
         };
         /**
+         * PlannedLocomotion
+         * @description A locomotion run that new runs of a study need.
+         */
+        PlannedLocomotion: {
+            /**
+             * Run Id
+             * @description The existing run that is reused; null for a new one.
+             */
+            run_id: string | null;
+            /** Task */
+            task: string;
+        };
+        /**
+         * PlannedPlace
+         * @description One training of a study, and how it comes to its run.
+         */
+        PlannedPlace: {
+            /** Method */
+            method: string;
+            /**
+             * Run Id
+             * @description The existing run; null for a new one.
+             */
+            run_id: string | null;
+            /** Seed */
+            seed: number;
+            standing: components["schemas"]["Standing"];
+            /** Task */
+            task: string;
+            /**
+             * Variant
+             * @description Empty in a study without variants.
+             */
+            variant: string;
+        };
+        /**
          * PlannedRun
          * @description One run that a launch would queue, or an existing one that it would share.
          */
@@ -1712,6 +1960,371 @@ export interface components {
             values: (string | null)[];
         };
         /**
+         * Standing
+         * @description How a place of a study comes to its run.
+         * @enum {string}
+         */
+        Standing: "new" | "joined" | "in_study";
+        /**
+         * Studies
+         * @description Studies, the newest first.
+         */
+        Studies: {
+            /** Studies */
+            studies: components["schemas"]["StudySummary"][];
+        };
+        /**
+         * StudyAddition
+         * @description What a study shall have besides.
+         */
+        StudyAddition: {
+            /** Methods */
+            methods?: string[];
+            /** Seeds */
+            seeds?: number[];
+            /** Tasks */
+            tasks?: string[];
+        };
+        /**
+         * StudyCell
+         * @description The runs of one task, method and variant.
+         */
+        StudyCell: {
+            /**
+             * Best Success Rate
+             * @description Median, over the seeds that have been tested, of the success of the best test.
+             */
+            best_success_rate: number | null;
+            /** Method */
+            method: string;
+            /**
+             * Missing Seeds
+             * @description Seeds that no run stands for.
+             */
+            missing_seeds: number[];
+            /**
+             * Progress
+             * @description Share of its trainings done, 0 to 1.
+             */
+            progress: number;
+            /**
+             * Runs
+             * @description One for each seed that has one.
+             */
+            runs: components["schemas"]["StudyRun"][];
+            /** States */
+            states: {
+                [key: string]: number;
+            };
+            /** Task */
+            task: string;
+            /**
+             * Tested
+             * @description Runs that have been tested.
+             */
+            tested: number;
+            /**
+             * Variant
+             * @description Empty in a study without variants.
+             */
+            variant: string;
+        };
+        /**
+         * StudyChange
+         * @description A new name or note; what is null stays.
+         */
+        StudyChange: {
+            /** Name */
+            name?: string | null;
+            /** Note */
+            note?: string | null;
+        };
+        /**
+         * StudyDetail
+         * @description A study with all its cells.
+         */
+        StudyDetail: {
+            /**
+             * Cells
+             * @description Task by task.
+             */
+            cells: components["schemas"]["StudyCell"][];
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /**
+             * Deleted At
+             * @description When a person hid it; it can be restored.
+             */
+            deleted_at: string | null;
+            /** Id */
+            id: string;
+            /**
+             * Locomotion
+             * @description The locomotion runs that its runs need, each once.
+             */
+            locomotion: components["schemas"]["StudyRun"][];
+            /** Name */
+            name: string;
+            /** Note */
+            note: string;
+            /**
+             * Progress
+             * @description Share of all its trainings done, 0 to 1.
+             */
+            progress: number;
+            /**
+             * Size
+             * @description Trainings that it asks for, locomotion runs not counted.
+             */
+            size: number;
+            spec: components["schemas"]["StudySpec"];
+            /**
+             * States
+             * @description How many of its runs are in each state.
+             */
+            states: {
+                [key: string]: number;
+            };
+        };
+        /**
+         * StudyEstimate
+         * @description What the new runs will cost, as far as this store's own runs tell.
+         */
+        StudyEstimate: {
+            /**
+             * Disk Bytes
+             * @description What their replay files take, nearly all that they write.
+             */
+            disk_bytes: number;
+            /**
+             * Disk Free Bytes
+             * @description What is free where this server keeps its data.
+             */
+            disk_free_bytes: number;
+            /**
+             * Slots
+             * @description Runs that the living workers can train at once.
+             */
+            slots: number;
+            /**
+             * Training S
+             * @description Time that they train, added up, in seconds; null if nobody knows.
+             */
+            training_s: number | null;
+            /**
+             * Unknown Runs
+             * @description Runs of whose like none has succeeded here.
+             */
+            unknown_runs: number;
+            /**
+             * Until Done S
+             * @description Time until all have ended if the living workers train nothing else; null if nobody knows.
+             */
+            until_done_s: number | null;
+        };
+        /**
+         * StudyLaunch
+         * @description A request to make a study and to queue what nothing serves yet.
+         */
+        StudyLaunch: {
+            /** Name */
+            name: string;
+            /**
+             * Note
+             * @default
+             */
+            note: string;
+            spec: components["schemas"]["StudySpec"];
+        };
+        /**
+         * StudyOutcome
+         * @description What launching a study, or more of it, has done.
+         */
+        StudyOutcome: {
+            /**
+             * Joined
+             * @description Trainings that a run from elsewhere serves.
+             */
+            joined: number;
+            /**
+             * Queued
+             * @description Runs that were made, locomotion runs counted.
+             */
+            queued: number;
+            /** Study Id */
+            study_id: string;
+        };
+        /**
+         * StudyPreview
+         * @description All that launching a study would do.
+         */
+        StudyPreview: {
+            estimate: components["schemas"]["StudyEstimate"];
+            /** Locomotion */
+            locomotion: components["schemas"]["PlannedLocomotion"][];
+            /** Places */
+            places: components["schemas"]["PlannedPlace"][];
+            /**
+             * Queued
+             * @description Runs that would be made, locomotion runs counted.
+             */
+            queued: number;
+        };
+        /**
+         * StudyPreviewRequest
+         * @description A study that could be launched, or a longer spec for one that is there.
+         */
+        StudyPreviewRequest: {
+            spec: components["schemas"]["StudySpec"];
+            /**
+             * Study Id
+             * @description The study that the spec would be for.
+             */
+            study_id?: string | null;
+        };
+        /**
+         * StudyRetry
+         * @description Which of a study's ended runs shall be tried again.
+         */
+        StudyRetry: {
+            /**
+             * Cancelled
+             * @description Those that a person cancelled, instead of those that failed.
+             * @default false
+             */
+            cancelled: boolean;
+        };
+        /**
+         * StudyRun
+         * @description How one run of a study stands.
+         */
+        StudyRun: {
+            /**
+             * Best Success Rate
+             * @description Success of its best test.
+             */
+            best_success_rate: number | null;
+            /**
+             * Progress
+             * @description Share of its training done, 0 to 1.
+             */
+            progress: number;
+            /**
+             * Reason
+             * @description Why it waits or ended so, in one sentence.
+             */
+            reason: string | null;
+            /** Run Id */
+            run_id: string;
+            /** Seed */
+            seed: number;
+            state: components["schemas"]["RunState"];
+            /** Task */
+            task: string;
+        };
+        /**
+         * StudySpec
+         * @description Every combination of tasks, methods, seeds and, if there are any, variants.
+         */
+        StudySpec: {
+            /** Methods */
+            methods: string[];
+            /**
+             * Overrides
+             * @description Settings laid over the preset in every run, nested.
+             */
+            overrides?: {
+                [key: string]: unknown;
+            };
+            /** Preset */
+            preset: string;
+            /** Seeds */
+            seeds: number[];
+            /** Tasks */
+            tasks: string[];
+            /** Variants */
+            variants?: components["schemas"]["StudyVariant"][];
+        };
+        /**
+         * StudySummary
+         * @description One row of the list of studies.
+         */
+        StudySummary: {
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /**
+             * Deleted At
+             * @description When a person hid it; it can be restored.
+             */
+            deleted_at: string | null;
+            /** Id */
+            id: string;
+            /** Name */
+            name: string;
+            /** Note */
+            note: string;
+            /**
+             * Progress
+             * @description Share of all its trainings done, 0 to 1.
+             */
+            progress: number;
+            /**
+             * Size
+             * @description Trainings that it asks for, locomotion runs not counted.
+             */
+            size: number;
+            spec: components["schemas"]["StudySpec"];
+            /**
+             * States
+             * @description How many of its runs are in each state.
+             */
+            states: {
+                [key: string]: number;
+            };
+        };
+        /**
+         * StudyTemplate
+         * @description A study that can be launched at once, or be changed first.
+         */
+        StudyTemplate: {
+            /** Name */
+            name: string;
+            spec: components["schemas"]["StudySpec"];
+            /** Summary */
+            summary: string;
+            /** Title */
+            title: string;
+        };
+        /**
+         * StudyTemplates
+         * @description The studies that come with the product.
+         */
+        StudyTemplates: {
+            /** Templates */
+            templates: components["schemas"]["StudyTemplate"][];
+        };
+        /**
+         * StudyVariant
+         * @description Settings that are tried beside others.
+         */
+        StudyVariant: {
+            /** Name */
+            name: string;
+            /**
+             * Overrides
+             * @description Settings laid over those of the study, nested.
+             */
+            overrides: {
+                [key: string]: unknown;
+            };
+        };
+        /**
          * TableColumn
          * @description One column of a plain table.
          */
@@ -1910,6 +2523,8 @@ export type Move = components['schemas']['Move'];
 export type OverallScore = components['schemas']['OverallScore'];
 export type Panel = components['schemas']['Panel'];
 export type PlainTable = components['schemas']['PlainTable'];
+export type PlannedLocomotion = components['schemas']['PlannedLocomotion'];
+export type PlannedPlace = components['schemas']['PlannedPlace'];
 export type PlannedRun = components['schemas']['PlannedRun'];
 export type PresetSummary = components['schemas']['PresetSummary'];
 export type PriorityChange = components['schemas']['PriorityChange'];
@@ -1931,6 +2546,24 @@ export type RunSummary = components['schemas']['RunSummary'];
 export type SeedReach = components['schemas']['SeedReach'];
 export type SeedScore = components['schemas']['SeedScore'];
 export type Setting = components['schemas']['Setting'];
+export type Standing = components['schemas']['Standing'];
+export type Studies = components['schemas']['Studies'];
+export type StudyAddition = components['schemas']['StudyAddition'];
+export type StudyCell = components['schemas']['StudyCell'];
+export type StudyChange = components['schemas']['StudyChange'];
+export type StudyDetail = components['schemas']['StudyDetail'];
+export type StudyEstimate = components['schemas']['StudyEstimate'];
+export type StudyLaunch = components['schemas']['StudyLaunch'];
+export type StudyOutcome = components['schemas']['StudyOutcome'];
+export type StudyPreview = components['schemas']['StudyPreview'];
+export type StudyPreviewRequest = components['schemas']['StudyPreviewRequest'];
+export type StudyRetry = components['schemas']['StudyRetry'];
+export type StudyRun = components['schemas']['StudyRun'];
+export type StudySpec = components['schemas']['StudySpec'];
+export type StudySummary = components['schemas']['StudySummary'];
+export type StudyTemplate = components['schemas']['StudyTemplate'];
+export type StudyTemplates = components['schemas']['StudyTemplates'];
+export type StudyVariant = components['schemas']['StudyVariant'];
 export type TableColumn = components['schemas']['TableColumn'];
 export type Task = components['schemas']['Task'];
 export type ViewerRequest = components['schemas']['ViewerRequest'];
@@ -1992,6 +2625,8 @@ export interface operations {
                 preset?: string[];
                 /** @description Ids of runs, to compare these only. */
                 run?: string[];
+                /** @description Id of a study, for its runs only. */
+                study?: string | null;
                 metric?: string;
                 /** @description What curves are drawn over. */
                 x?: "epoch" | "env_steps" | "episodes" | "updates" | "wall_seconds";
@@ -2015,6 +2650,15 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["CurveComparison"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
                 };
             };
             /** @description A field or setting cannot work. */
@@ -2059,6 +2703,8 @@ export interface operations {
                 preset?: string[];
                 /** @description Ids of runs, to compare these only. */
                 run?: string[];
+                /** @description Id of a study, for its runs only. */
+                study?: string | null;
                 metric?: string;
                 /** @description What curves are drawn over. */
                 x?: "epoch" | "env_steps" | "episodes" | "updates" | "wall_seconds";
@@ -2082,6 +2728,101 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["BestModels"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    get_bundle: {
+        parameters: {
+            query?: {
+                /** @description Whether to leave out what tells who made it, and where. */
+                anonymous?: boolean;
+                /** @description Which training is compared. */
+                phase?: "locomotion" | "manipulation";
+                /** @description Repeat for several; none: all. */
+                task?: string[];
+                /** @description Repeat for several; none: all. */
+                method?: string[];
+                /** @description Repeat for several; none: all. */
+                preset?: string[];
+                /** @description Ids of runs, to compare these only. */
+                run?: string[];
+                /** @description Id of a study, for its runs only. */
+                study?: string | null;
+                metric?: string;
+                /** @description What curves are drawn over. */
+                x?: "epoch" | "env_steps" | "episodes" | "updates" | "wall_seconds";
+                /** @description `seeds` shows each by itself. */
+                statistic?: "median" | "mean" | "iqm" | "seeds";
+                /** @description Of confidence intervals. */
+                level?: number;
+                /** @description Whether to add each seed's own curve. */
+                seeds?: boolean;
+                /** @description Learning curves, or bars of best models. */
+                kind?: "curves" | "best";
+                /** @description One column of a paper, both, or a slide. */
+                width?: "single" | "double" | "slide";
+                log_x?: boolean;
+                log_y?: boolean;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/zip": unknown;
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
                 };
             };
             /** @description A field or setting cannot work. */
@@ -2172,6 +2913,96 @@ export interface operations {
             };
         };
     };
+    get_figure: {
+        parameters: {
+            query?: {
+                /** @description Which training is compared. */
+                phase?: "locomotion" | "manipulation";
+                /** @description Repeat for several; none: all. */
+                task?: string[];
+                /** @description Repeat for several; none: all. */
+                method?: string[];
+                /** @description Repeat for several; none: all. */
+                preset?: string[];
+                /** @description Ids of runs, to compare these only. */
+                run?: string[];
+                /** @description Id of a study, for its runs only. */
+                study?: string | null;
+                metric?: string;
+                /** @description What curves are drawn over. */
+                x?: "epoch" | "env_steps" | "episodes" | "updates" | "wall_seconds";
+                /** @description `seeds` shows each by itself. */
+                statistic?: "median" | "mean" | "iqm" | "seeds";
+                /** @description Of confidence intervals. */
+                level?: number;
+                /** @description Whether to add each seed's own curve. */
+                seeds?: boolean;
+                /** @description Learning curves, or bars of best models. */
+                kind?: "curves" | "best";
+                /** @description One column of a paper, both, or a slide. */
+                width?: "single" | "double" | "slide";
+                log_x?: boolean;
+                log_y?: boolean;
+            };
+            header?: never;
+            path: {
+                format: "svg" | "pdf" | "png" | "csv" | "tex";
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/pdf": unknown;
+                    "application/x-tex": unknown;
+                    "image/png": unknown;
+                    "image/svg+xml": unknown;
+                    "text/csv": unknown;
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
     list_compared_metrics: {
         parameters: {
             query?: {
@@ -2185,6 +3016,8 @@ export interface operations {
                 preset?: string[];
                 /** @description Ids of runs, to compare these only. */
                 run?: string[];
+                /** @description Id of a study, for its runs only. */
+                study?: string | null;
             };
             header?: never;
             path?: never;
@@ -2199,6 +3032,15 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["MetricNames"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
                 };
             };
             /** @description A field or setting cannot work. */
@@ -3123,6 +3965,807 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    list_studies: {
+        parameters: {
+            query?: {
+                /** @description The studies that a person hid, instead of all others. */
+                deleted?: boolean;
+                limit?: number;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Studies"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    create_study: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["StudyLaunch"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StudyOutcome"];
+                };
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    preview_study: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["StudyPreviewRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StudyPreview"];
+                };
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    list_study_templates: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StudyTemplates"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    get_study: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                study_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StudyDetail"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    delete_study: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                study_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    change_study: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                study_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["StudyChange"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    extend_study: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                study_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["StudyAddition"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StudyOutcome"];
+                };
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    fill_study: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                study_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StudyOutcome"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    restore_study: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                study_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    retry_study: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                study_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["StudyRetry"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ActionResults"];
+                };
             };
             /** @description The request cannot be read. */
             400: {
