@@ -4,11 +4,12 @@ import { useQuery } from '@tanstack/react-query';
 import { getRouteApi } from '@tanstack/react-router';
 import { useCallback } from 'react';
 import type { CurveComparison } from '@/client/schema.gen';
-import { ButtonLink } from '@/components/anchor-link';
+import { AnchorLink, ButtonLink } from '@/components/anchor-link';
 import { Freshness } from '@/components/freshness';
 import { SentencePanel } from '@/components/sentence-panel';
 import { sentence } from '@/lib/api';
 import { formatPlural } from '@/lib/format';
+import { studyQuery } from '@/lib/studies';
 import { curvesQuery } from './api/get-curves';
 import { BestTab } from './components/best-tab';
 import { CompareFilters } from './components/compare-filters';
@@ -44,6 +45,7 @@ export function ComparePage() {
       <title>Compare · SLDR</title>
       <div className="page-head">
         <h1>Compare</h1>
+        <OnlySome search={search} />
         <span className="faint number">{comparison && formatPlural(comparison.runs, 'run')}</span>
         <Freshness updatedAt={dataUpdatedAt} />
         {comparison && comparison.panels.length > 0 && (
@@ -83,6 +85,31 @@ export function ComparePage() {
         </Tabs>
       )}
     </>
+  );
+}
+
+/** That only the runs of a study, or some by name, are compared, and the way to all others. */
+function OnlySome({ search }: { search: CompareSearch }) {
+  const { study, runs } = search;
+  const { data } = useQuery({ ...studyQuery(study ?? ''), enabled: study !== undefined });
+  if (study === undefined && runs === undefined) return null;
+  return (
+    <span>
+      {study === undefined ? (
+        'only chosen runs, '
+      ) : (
+        <>
+          only{' '}
+          <AnchorLink to="/studies/$studyId" params={{ studyId: study }}>
+            {data?.name ?? 'one study'}
+          </AnchorLink>
+          ,{' '}
+        </>
+      )}
+      <AnchorLink to="/compare" search={{ ...search, study: undefined, runs: undefined }}>
+        all runs
+      </AnchorLink>
+    </span>
   );
 }
 

@@ -2,8 +2,9 @@
 import { type CompareSearch, partsOf } from '../search';
 
 /** The runs that the page is narrowed to, as every route of comparisons takes them. */
-export function choiceOf({ phase, tasks, methods, preset, runs }: CompareSearch) {
+export function choiceOf({ study, phase, tasks, methods, preset, runs }: CompareSearch) {
   return {
+    study,
     phase,
     task: [...partsOf(tasks)],
     method: [...partsOf(methods)],
