@@ -56,8 +56,8 @@ export function countedStates(states: Partial<Record<RunState, number>>): [RunSt
   return RUN_STATES.flatMap((state) => (states[state] ? [[state, states[state]] as [RunState, number]] : []));
 }
 
-/** The state that says most about several runs: what needs a look first, then what moves, then what waits. */
+/** The state that says most about several runs: what moves or will, then what needs a look. */
 export function leadingState(states: Partial<Record<RunState, number>>): RunState {
-  const order: readonly RunState[] = ['failed', 'running', 'queued', 'blocked', 'paused', 'succeeded', 'cancelled'];
-  return order.find((state) => states[state]) ?? 'queued';
+  const order: readonly RunState[] = ['running', 'queued', 'blocked', 'paused', 'failed', 'cancelled'];
+  return order.find((state) => states[state]) ?? 'succeeded';
 }

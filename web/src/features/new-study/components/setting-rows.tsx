@@ -42,6 +42,7 @@ export function SettingRows({ form, onChange }: Props) {
               size="xs"
               aria-label={`Values of ${row.path}`}
               placeholder={setting?.kind === 'integers' ? '64, 64 | 128, 128' : 'a value, or several'}
+              inputWrapperOrder={['input', 'description', 'error']}
               description={setting && <InlineCode text={setting.help} />}
               value={row.text}
               error={problems.rows[place]}

@@ -27,8 +27,8 @@ export function MatrixCell({ cell, seeds, isOpen, onToggle }: Props) {
             <b className="number" title="Median over the tested seeds of the best test's success">
               {formatShare(cell.best_success_rate)}
             </b>
-            <span className="faint number">
-              {cell.tested} of {seeds} tested
+            <span className="faint number" title="Seeds that have been tested">
+              {cell.tested} of {seeds}
             </span>
           </>
         )}
