@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 import zlib
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
 from backend.store.claims import Claim
 from backend.store.database import Database
-from backend.store.launches import LaunchOrder, launch
 from backend.store.metrics import MetricPoint, append_metrics
 from backend.store.outcomes import Failed, Succeeded
 from backend.store.progress import Progress, report_progress
 from backend.store.queue import claim, finish
 from backend.store.workers import Machine, register_worker
-from sldr_core.config import Phase
 from sldr_core.records import Step
 
 MIDWAY = {"her-sldr": 0.3, "her-rnd": 0.42, "her": 0.45, "her-dense": 0.6, "ddpg-sldr": 0.7, "cher": 0.75, "ddpg": 0.9}
@@ -37,24 +35,6 @@ EPOCH_S = 24.0
 
 WHOLE = 1.0
 """The share of a training that is over at its end."""
-
-
-def launch_matrix(
-    db: Database,
-    tasks: Sequence[str],
-    methods: Sequence[str],
-    seeds: Sequence[int],
-    preset: str = "quick",
-    phase: Phase = "manipulation",
-) -> list[str]:
-    """Queue every task with every method and seed, and the locomotion runs they need; return all ids once."""
-    ids = [
-        run_id
-        for task in tasks
-        for method in methods
-        for run_id in launch(db, LaunchOrder(task, phase, method, tuple(seeds), preset))
-    ]
-    return list(dict.fromkeys(ids))
 
 
 def play_out(

@@ -18,11 +18,13 @@ from playwright.sync_api import Browser, sync_playwright
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from plausible_runs import launch_matrix, play_out
+from plausible_runs import play_out
 from served_product import PAGE_AND_API, serving
 
 from backend.store.database import open_database
 from backend.store.settings import Settings, sqlite_url
+from backend.store.studies.launch import create_study
+from backend.store.studies.spec import StudySpec
 from sldr_core.config import METHODS, TASKS
 
 SEEDS = 5
@@ -77,7 +79,7 @@ def _filled_service(stack: ExitStack):
     home = Path(stack.enter_context(tempfile.TemporaryDirectory()))
     database = open_database(Settings(home=home, database_url=sqlite_url(home)))
     print(f"Filling a store with {len(TASKS)} tasks, {len(METHODS)} methods, {SEEDS} seeds...", flush=True)
-    launch_matrix(database, tuple(TASKS), tuple(METHODS), range(SEEDS))
+    create_study(database, "All", StudySpec(tuple(TASKS), tuple(METHODS), tuple(range(SEEDS)), "quick"))
     play_out(database, EPOCHS)
     database.close()
     return serving(home, PORT, PAGE_AND_API)
