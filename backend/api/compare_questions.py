@@ -39,9 +39,7 @@ def read_choice(
     method: Annotated[Names, Query(description="Repeat for several; none: all.")] = [],  # noqa: B006
     preset: Annotated[Names, Query(description="Repeat for several; none: all.")] = [],  # noqa: B006
     run: Annotated[Names, Query(description="Ids of runs, to compare these only.")] = [],  # noqa: B006
-    study: Annotated[
-        str | None, Query(max_length=LONGEST_NAME, description="Id of a study, for its runs only.")
-    ] = None,
+    study: Annotated[str | None, Query(max_length=LONGEST_NAME, description="Id of a study: its runs only.")] = None,
 ) -> RunChoice:
     """Return which runs are compared."""
     return RunChoice(phase=phase, tasks=task, methods=method, presets=preset, run_ids=run, study_id=study)

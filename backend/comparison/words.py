@@ -6,7 +6,6 @@ from collections.abc import Mapping
 
 from backend.comparison.records import Axis, Statistic, Words
 from backend.statistics.bands import SEEDS_FOR_BAND
-from backend.statistics.resampling import RESAMPLES
 
 AXES: Mapping[Axis, str] = {
     "epoch": "Epoch",
@@ -62,6 +61,6 @@ def _band(statistic: Statistic, level: float) -> str:
     return {
         "median": ", band: quartiles (25 to 75 %)",
         "mean": f", band: {share} confidence (Student's t)",
-        "iqm": f", band: {share} confidence (stratified bootstrap over seeds, {RESAMPLES:,} draws)",
+        "iqm": f", band: {share} confidence (bootstrap over seeds)",
         "seeds": "",
     }[statistic]

@@ -121,7 +121,7 @@ def _iqm_interval(values: Floats, level: float) -> tuple[Floats, Floats]:
         copies = np.cumsum(resamples.copies[:, seeds], axis=1)
         inside = np.diff(np.clip(copies, cut, n - cut), axis=1, prepend=cut)
         replicates = inside @ sorted_values / (n - 2 * cut)
-        low[place], high[place] = weighted_quantiles(replicates, resamples.counts, shares_outside(level))
+        low[place], high[place] = weighted_quantiles(replicates, resamples.weights, shares_outside(level))
     return low, high
 
 

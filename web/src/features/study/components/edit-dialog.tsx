@@ -38,8 +38,7 @@ export function EditDialog({ study, isOpen, onClose, onSend }: Props) {
         <Textarea
           label="Note"
           description="What it is for, or what it showed."
-          autosize
-          minRows={3}
+          rows={4}
           maxLength={10_000}
           value={note}
           onChange={(event) => setNote(event.currentTarget.value)}
