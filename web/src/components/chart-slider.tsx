@@ -26,21 +26,22 @@ interface Props {
 const KEYS_HELP = 'Left and right arrow step through the points, plus and minus zoom, 0 shows all.';
 
 export function ChartSlider({ canvas, plot, x, range, whole, onZoom, onClick, description, describePoint }: Props) {
-  const [at, setAt] = useState<number | null>(null);
+  // The place is kept, not its number: a live curve may get points before it.
+  const [place, setPlace] = useState<number | null>(null);
+  const at = place === null ? null : pointNear(x, place);
   const press = (event: KeyboardEvent): void => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const wish = readChartKey(event.key, event.shiftKey, { x, at, range, whole });
     if (wish === undefined) return;
     event.preventDefault();
     if (wish.range !== undefined) onZoom(wish.range);
-    if (wish.at !== undefined) setAt(wish.at);
+    if (wish.at !== undefined) setPlace(x[wish.at] ?? null);
   };
   // biome-ignore lint/correctness/useExhaustiveDependencies: the plot itself is no state
   useEffect(() => {
-    const place = at === null ? undefined : x[at];
     // The plot takes a new window in a microtask of its own; only behind that does the cursor find its place.
-    if (place !== undefined) queueMicrotask(() => pointAt(plot.current, place));
-  }, [at, range[0], range[1]]);
+    if (place !== null) queueMicrotask(() => pointAt(plot.current, place));
+  }, [place, range[0], range[1]]);
   const shown = at ?? x.length - 1;
   return (
     <div
@@ -57,9 +58,17 @@ export function ChartSlider({ canvas, plot, x, range, whole, onZoom, onClick, de
       onKeyDown={press}
       onClick={onClick}
       onBlur={() => {
-        if (at !== null) pointAt(plot.current, null);
-        setAt(null);
+        if (place !== null) pointAt(plot.current, null);
+        setPlace(null);
       }}
     />
+  );
+}
+
+/** The number of the last point at or before a place; the first one where there is none. */
+function pointNear(x: readonly number[], place: number): number {
+  return Math.max(
+    0,
+    x.findLastIndex((point) => point <= place),
   );
 }

@@ -95,19 +95,17 @@ function OnlySome({ search }: { search: CompareSearch }) {
   if (study === undefined && runs === undefined) return null;
   return (
     <span>
+      Only{' '}
       {study === undefined ? (
-        'only chosen runs, '
+        'chosen runs'
       ) : (
-        <>
-          only{' '}
-          <AnchorLink to="/studies/$studyId" params={{ studyId: study }}>
-            {data?.name ?? 'one study'}
-          </AnchorLink>
-          ,{' '}
-        </>
+        <AnchorLink to="/studies/$studyId" params={{ studyId: study }} fz="inherit">
+          {data?.name ?? 'one study'}
+        </AnchorLink>
       )}
-      <AnchorLink to="/compare" search={{ ...search, study: undefined, runs: undefined }}>
-        all runs
+      .{' '}
+      <AnchorLink to="/compare" search={{ ...search, study: undefined, runs: undefined }} fz="inherit">
+        Show all runs
       </AnchorLink>
     </span>
   );
