@@ -17,7 +17,7 @@ PIP := .venv/bin/python -m pip --disable-pip-version-check --quiet
 WEB_SOURCES := $(shell find web/src web/public -type f -not -name '*.test.*' 2>/dev/null)
 CLIENT := web/src/client/schema.gen.ts
 
-.PHONY: run test chaos setup web client lock format clean help system
+.PHONY: run test chaos pictures setup web client lock format clean help system
 
 run: setup ## Set everything up and serve the page; HOST and PORT say where
 	@exec .venv/bin/sldr serve --host $(HOST) --port $(PORT)
@@ -27,6 +27,9 @@ test: setup ## Set everything up and run every check; PARTS="lint pytest" runs s
 
 chaos: setup ## Kill, crowd and hurry a service; the results go into docs/reliability.md (many minutes)
 	@.venv/bin/python tests/chaos --write docs/reliability.md $(CHAOS)
+
+pictures: setup ## Take a picture of every page, light and dark, into docs/pictures (minutes)
+	@SLDR_CHROMIUM=$$(.ci/find-chromium.sh) .venv/bin/python tests/pictures docs/pictures
 
 setup: system .make/package web ## Make the Python environment and build the page
 
@@ -51,7 +54,7 @@ clean: ## Remove everything that was made; trained runs stay
 help: ## List what can be made
 	@sed -nE 's/^([a-z]+):.*## (.*)/  make \1\t\2/p' Makefile | expand -t 16
 
-test: purpose := test
+test pictures: purpose := test
 system:
 	@.ci/system-packages.sh $(purpose)
 

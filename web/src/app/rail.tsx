@@ -5,10 +5,13 @@ import { SchemeSwitch } from '@/app/scheme-switch';
 import { Icon, type IconName } from '@/components/icon';
 import classes from './shell.module.css';
 
-const PLACES: readonly { to: '/' | '/launch' | '/studies' | '/queue' | '/workers'; label: string; icon: IconName }[] = [
+type Place = '/' | '/launch' | '/studies' | '/compare' | '/queue' | '/workers';
+
+const PLACES: readonly { to: Place; label: string; icon: IconName }[] = [
   { to: '/', label: 'Runs', icon: 'runs' },
   { to: '/launch', label: 'New run', icon: 'launch' },
   { to: '/studies', label: 'Studies', icon: 'studies' },
+  { to: '/compare', label: 'Compare', icon: 'chart' },
   { to: '/queue', label: 'Queue', icon: 'queue' },
   { to: '/workers', label: 'Workers', icon: 'workers' },
 ];

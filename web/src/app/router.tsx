@@ -10,6 +10,7 @@ import {
 } from '@tanstack/react-router';
 import { PageBroke, PageNotFound } from '@/app/failures';
 import { Shell } from '@/app/shell';
+import { readCompareSearch, readConfigsSearch } from '@/features/compare/search';
 import { readLaunchSearch } from '@/features/launch/search';
 import { readNewStudySearch } from '@/features/new-study/search';
 import { readRunSearch } from '@/features/run/search';
@@ -73,10 +74,24 @@ const workers = createRoute({
   component: lazyRouteComponent(() => import('@/features/workers/workers-page'), 'WorkersPage'),
 });
 
+const compare = createRoute({
+  getParentRoute: () => root,
+  path: '/compare',
+  validateSearch: readCompareSearch,
+  component: lazyRouteComponent(() => import('@/features/compare/compare-page'), 'ComparePage'),
+});
+
+const configs = createRoute({
+  getParentRoute: () => root,
+  path: '/compare/configs',
+  validateSearch: readConfigsSearch,
+  component: lazyRouteComponent(() => import('@/features/compare/configs-page'), 'ConfigsPage'),
+});
+
 /** Make the router; a test hands in a history of its own. */
 export function makeRouter(history?: RouterHistory) {
   return createRouter({
-    routeTree: root.addChildren([runs, launch, run, studies, newStudy, study, queue, workers]),
+    routeTree: root.addChildren([runs, launch, run, studies, newStudy, study, compare, configs, queue, workers]),
     history,
     defaultNotFoundComponent: PageNotFound,
     defaultErrorComponent: PageBroke,
