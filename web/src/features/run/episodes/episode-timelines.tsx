@@ -15,7 +15,7 @@ import classes from './episodes.module.css';
 import { timelinesQuery } from './get-episodes';
 import { type EpisodePlace, episodeName } from './place';
 import { TagBadge } from './tag-badge';
-import { momentsOf, type Timeline, timelinesOf } from './timelines';
+import { momentsOf, Q_TITLE, type Timeline, timelinesOf } from './timelines';
 
 const HEIGHT = 130; // [px]
 
@@ -41,7 +41,7 @@ function Shown({ runId, timelines }: { runId: string; timelines: Timelines }) {
     [episode],
   );
   const whole = [0, episode.length] as const;
-  const view = { x, marks, range: zoom ?? whole, whole, onZoom: setZoom };
+  const view = { x, marks: NO_MARKS, range: zoom ?? whole, whole, onZoom: setZoom };
   return (
     <section className={classes.episode} aria-label={`Episode ${episodeName(episode)}`}>
       <div className={classes.episodeHead}>
@@ -71,7 +71,7 @@ function Shown({ runId, timelines }: { runId: string; timelines: Timelines }) {
       </p>
       <div className={classes.timelines}>
         {charts.map((chart) => (
-          <TimelineChart key={chart.title} chart={chart} view={view} />
+          <TimelineChart key={chart.title} chart={chart} view={chart.title === Q_TITLE ? { ...view, marks } : view} />
         ))}
       </div>
     </section>
@@ -86,6 +86,7 @@ interface View {
   readonly onZoom: (range: Range | null) => void;
 }
 
+const NO_MARKS: readonly never[] = [];
 const NO_GHOSTS: readonly never[] = [];
 const formatStep = (step: number): string => String(Number(step.toFixed(1)));
 
@@ -104,9 +105,11 @@ function TimelineChart({ chart, view }: { chart: Timeline; view: View }) {
             const { color, dash } = lineStyle(index, scheme);
             return (
               <li key={line.label}>
-                <svg width="18" height="8" aria-hidden="true">
-                  <path d="M0 4h18" stroke={color} strokeWidth="2" strokeDasharray={dash.join(' ')} />
-                </svg>
+                {lines.length > 1 && (
+                  <svg width="18" height="8" aria-hidden="true">
+                    <path d="M0 4h18" stroke={color} strokeWidth="2" strokeDasharray={dash.join(' ')} />
+                  </svg>
+                )}
                 {lines.length > 1 && line.label} <b className="number">{point !== null && valueAt(line, at)}</b>
               </li>
             );

@@ -81,7 +81,7 @@ test('every chart of an episode has a value for each moment, or a gap', () => {
     'q',
     'Task reward',
     'Q values',
-    'Distance to the goal',
+    'Distance to the goal [m]',
     'Touched by the robot',
   ]);
   for (const { lines } of charts) {
@@ -102,7 +102,7 @@ test('what an episode has nothing of is left out', () => {
   expect(timelinesOf(bare).map(({ title }) => title)).toEqual([
     'Task reward',
     'Q values',
-    'Distance to the goal',
-    'Angle from the goal',
+    'Distance to the goal [m]',
+    'Angle from the goal [rad]',
   ]);
 });

@@ -9,7 +9,8 @@ import { TagSwatch } from './tag-badge';
 import { TagPatterns, tagFill } from './tag-fill';
 import { TAG_MEANING, TAG_NAMES, TAGS } from './tags';
 
-const HEIGHT = 150; // [px]
+const HEIGHT = 156; // [px]
+const TOP = 7; // [px]
 const LEFT = 44; // [px]
 const BOTTOM = 20; // [px]
 /** Room that a label below the bars takes [px]. */
@@ -89,10 +90,10 @@ function Bars({ tests, shown, chosen, onPoint, onChoose }: BarsProps) {
   const slot = Math.min(WIDEST, Math.max(0, width - LEFT) / Math.max(1, tests.length));
   const bar = slot > 6 ? slot - 2 : slot;
   const labels = labelled(tests, Math.max(1, (width - LEFT) / LABEL));
-  const y = (share: number): number => (HEIGHT - BOTTOM) * (1 - share) + 1;
+  const y = (share: number): number => TOP + (HEIGHT - BOTTOM - TOP) * (1 - share);
   return (
     <div ref={ref}>
-      <svg width={width} height={HEIGHT + 2} className={classes.bars} aria-hidden="true">
+      <svg width={width} height={HEIGHT} className={classes.bars} aria-hidden="true">
         <TagPatterns id={id} scheme={scheme} />
         {[0, 0.5, 1].map((share) => (
           <g key={share}>
@@ -116,7 +117,7 @@ function Bars({ tests, shown, chosen, onPoint, onChoose }: BarsProps) {
             {stacked(test).map(({ tag, from, to }) => (
               <rect key={tag} width={bar} y={y(to)} height={y(from) - y(to)} fill={tagFill(id, tag)} />
             ))}
-            {at === shown && <rect width={bar} y={1} height={HEIGHT - BOTTOM} className={classes.pointed} />}
+            {at === shown && <rect width={bar} y={y(1)} height={y(0) - y(1)} className={classes.pointed} />}
             {labels.has(test.epoch) && (
               <text x={bar / 2} y={HEIGHT - 4} textAnchor="middle">
                 {test.epoch}

@@ -10,6 +10,9 @@ export interface Timeline {
   readonly format: (value: number | null) => string;
 }
 
+/** The chart of what SLDR rewards, in which the worst moment is marked. */
+export const Q_TITLE = 'q';
+
 type Columns = Readonly<Record<string, readonly (number | null)[]>>;
 
 /** The charts of an episode; those of which it has nothing are left out. */
@@ -20,7 +23,7 @@ export function timelinesOf(episode: EpisodeTimelines): Timeline[] {
   const touches = Object.entries(contact).map(([name, column]) => [name, column.map(Number)] as const);
   const isTouched = touches.some(([, column]) => column.some((touch) => touch > 0));
   return [
-    timeline('q', pick(rewards, isSldr), formatValue),
+    timeline(Q_TITLE, pick(rewards, isSldr), formatValue),
     timeline(
       'Task reward',
       pick(rewards, (name) => name === 'task'),
@@ -32,8 +35,8 @@ export function timelinesOf(episode: EpisodeTimelines): Timeline[] {
       formatValue,
     ),
     timeline('Q values', values, formatValue),
-    timeline('Distance to the goal', { distance }, (value) => withUnit(value, 'm')),
-    timeline('Angle from the goal', angle === null ? {} : { angle }, (value) => withUnit(value, 'rad')),
+    timeline('Distance to the goal [m]', { distance }, formatValue),
+    timeline('Angle from the goal [rad]', angle === null ? {} : { angle }, formatValue),
     timeline('Touched by the robot', isTouched ? Object.fromEntries(touches) : {}, formatTouch),
   ]
     .filter(({ lines }) => lines.length > 0)
@@ -58,10 +61,6 @@ function padded(line: Line, length: number): Line {
 
 function pick(columns: Columns, wanted: (name: string) => boolean): Columns {
   return Object.fromEntries(Object.entries(columns).filter(([name]) => wanted(name)));
-}
-
-function withUnit(value: number | null, unit: string): string {
-  return value === null ? formatValue(value) : `${formatValue(value)}\u202f${unit}`;
 }
 
 function formatTouch(value: number | null): string {
