@@ -19,6 +19,8 @@ from backend.api.origins import SameOrigin
 from backend.api.pages import BUILT_PAGE, add_pages
 from backend.api.routes import (
     choices,
+    compare,
+    compare_exports,
     episodes,
     health,
     launches,
@@ -26,10 +28,12 @@ from backend.api.routes import (
     run_actions,
     run_files,
     runs,
+    studies,
     viewer_sessions,
     workers,
 )
 from backend.api.tokens import ViewerTokens, load_secret
+from backend.comparison.memory import ComparisonMemory
 from backend.store.database import open_database
 from backend.store.settings import Settings
 from backend.store.storage import FileStorage
@@ -63,6 +67,7 @@ def create_app(settings: Settings, page: Path = BUILT_PAGE, hosts: HostRule = LO
         health,
         choices,
         launches,
+        studies,
         run_actions,
         runs,
         run_files,
@@ -70,6 +75,8 @@ def create_app(settings: Settings, page: Path = BUILT_PAGE, hosts: HostRule = LO
         queue,
         workers,
         viewer_sessions,
+        compare,
+        compare_exports,
         viewer_proxy,
     ):
         app.include_router(routes.router)
@@ -92,7 +99,7 @@ def _lifespan(settings: Settings):  # noqa: ANN202 - the decorator's type is lon
         database = open_database(settings)
         with viewer_proxy.viser_client() as viser:
             tokens = ViewerTokens(load_secret(settings.secret_path))
-            app.state.service = Service(settings, database, FileStorage(settings), tokens, viser)
+            app.state.service = Service(settings, database, FileStorage(settings), tokens, viser, ComparisonMemory())
             yield
         database.close()
 

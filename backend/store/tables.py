@@ -23,9 +23,10 @@ from sqlalchemy import (
     Text,
     TypeDecorator,
     false,
+    literal_column,
 )
 
-SCHEMA_REVISION = "0005"
+SCHEMA_REVISION = "0009"
 """The migration that these tables correspond to."""
 
 AnyRow = Row[*tuple[Any, ...]]
@@ -33,6 +34,9 @@ AnyRow = Row[*tuple[Any, ...]]
 
 ID_LENGTH = 32
 NAME_LENGTH = 200
+
+TEST_METRIC_INDEX_CONDITION = "metric_values.name >= 'test/' AND metric_values.name < 'test0'"
+"""Which metrics have an index by name: those of tests, few among many. A query that says so is answered from it."""
 
 
 class UtcDateTime(TypeDecorator[datetime]):
@@ -180,6 +184,16 @@ metric_values = Table(
     sqlite_with_rowid=False,
 )
 
+# A curve of tests over many runs is read from this index alone.
+Index(
+    "ix_metric_values_tests",
+    metric_values.c.name,
+    metric_values.c.step_id,
+    metric_values.c.value,
+    sqlite_where=literal_column(TEST_METRIC_INDEX_CONDITION.replace("metric_values.", "")),
+    postgresql_where=literal_column(TEST_METRIC_INDEX_CONDITION.replace("metric_values.", "")),
+)
+
 run_files = Table(
     "run_files",
     metadata,
@@ -250,3 +264,28 @@ viewer_sessions = Table(
     Column("touched_at", UtcDateTime, nullable=False),
     Column("ended_at", UtcDateTime),
 )
+
+studies = Table(
+    "studies",
+    metadata,
+    Column("number", Integer, primary_key=True, autoincrement=True),
+    Column("id", String(ID_LENGTH), nullable=False, unique=True),
+    Column("name", String(NAME_LENGTH), nullable=False),
+    Column("note", Text, nullable=False),
+    Column("preset", String(NAME_LENGTH), nullable=False),
+    Column("spec", JSON, nullable=False),
+    Column("created_at", UtcDateTime, nullable=False),
+    Column("deleted_at", UtcDateTime),
+)
+
+study_runs = Table(
+    "study_runs",
+    metadata,
+    Column("study_id", String(ID_LENGTH), ForeignKey("studies.id"), primary_key=True),
+    Column("task", String(NAME_LENGTH), primary_key=True),
+    Column("method", String(NAME_LENGTH), primary_key=True),
+    Column("variant", String(NAME_LENGTH), primary_key=True),
+    Column("seed", BigInteger, primary_key=True, autoincrement=False),
+    Column("run_id", String(ID_LENGTH), ForeignKey("runs.id"), nullable=False, index=True),
+)
+"""Which run stands at which place of a study: one at most, so that no place is trained twice."""

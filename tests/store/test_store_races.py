@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from functools import partial
-from threading import Barrier
 
-from store_cases import claim_next, order
+from store_cases import at_once, claim_next, order
 
 from backend.store.database import Database
 from backend.store.launches import LaunchOrder, launch
@@ -18,18 +15,6 @@ from backend.store.states import RunState
 
 ROUNDS = 5
 """Often enough that the two meet."""
-
-
-def at_once(*calls: Callable[[], object]) -> list[object]:
-    """Make calls in threads that begin together; return what they returned."""
-    barrier = Barrier(len(calls))
-
-    def begin(call: Callable[[], object]) -> object:
-        barrier.wait()
-        return call()
-
-    with ThreadPoolExecutor(len(calls)) as threads:
-        return [future.result() for future in [threads.submit(begin, call) for call in calls]]
 
 
 def with_sldr(task: str, seed: int, threads: int) -> LaunchOrder:

@@ -15,6 +15,8 @@ COMMANDS = {
     "worker": "Train queued runs, on this machine or on a cluster.",
     "node": "Make this machine a node of a cluster.",
     "viewer": "Serve 3D views of policies to the page.",
+    "launch": "Queue runs, or a study of them, for the workers.",
+    "runs": "List the runs in the store.",
     "train": "Train here and now, without page and queue.",
     "evaluate": "Measure the success of a trained policy.",
     "replay": "Simulate recorded episodes again and compare every bit.",

@@ -11,8 +11,11 @@ import {
 import { PageBroke, PageNotFound } from '@/app/failures';
 import { Shell } from '@/app/shell';
 import { readLaunchSearch } from '@/features/launch/search';
+import { readNewStudySearch } from '@/features/new-study/search';
 import { readRunSearch } from '@/features/run/search';
 import { readRunsSearch } from '@/features/runs/search';
+import { readStudiesSearch } from '@/features/studies/search';
+import { readStudySearch } from '@/features/study/search';
 
 const root = createRootRoute({ component: Shell });
 
@@ -37,6 +40,27 @@ const run = createRoute({
   component: lazyRouteComponent(() => import('@/features/run/run-page'), 'RunPage'),
 });
 
+const studies = createRoute({
+  getParentRoute: () => root,
+  path: '/studies',
+  validateSearch: readStudiesSearch,
+  component: lazyRouteComponent(() => import('@/features/studies/studies-page'), 'StudiesPage'),
+});
+
+const newStudy = createRoute({
+  getParentRoute: () => root,
+  path: '/studies/new',
+  validateSearch: readNewStudySearch,
+  component: lazyRouteComponent(() => import('@/features/new-study/new-study-page'), 'NewStudyPage'),
+});
+
+const study = createRoute({
+  getParentRoute: () => root,
+  path: '/studies/$studyId',
+  validateSearch: readStudySearch,
+  component: lazyRouteComponent(() => import('@/features/study/study-page'), 'StudyPage'),
+});
+
 const queue = createRoute({
   getParentRoute: () => root,
   path: '/queue',
@@ -52,7 +76,7 @@ const workers = createRoute({
 /** Make the router; a test hands in a history of its own. */
 export function makeRouter(history?: RouterHistory) {
   return createRouter({
-    routeTree: root.addChildren([runs, launch, run, queue, workers]),
+    routeTree: root.addChildren([runs, launch, run, studies, newStudy, study, queue, workers]),
     history,
     defaultNotFoundComponent: PageNotFound,
     defaultErrorComponent: PageBroke,

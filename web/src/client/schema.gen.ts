@@ -24,6 +24,126 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/compare": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Curves
+         * @description Return learning curves, one panel a task, one curve a group of seeds.
+         */
+        get: operations["get_curves"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/compare/best": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Best Models
+         * @description Compare best test success: bars, improvement, profile and efficiency. Of the view, statistic and level count.
+         */
+        get: operations["get_best_models"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/compare/bundle.zip": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Bundle
+         * @description Send figures, numbers, configs, versions, seeds and references in one archive.
+         */
+        get: operations["get_bundle"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/compare/configs": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Config Comparison
+         * @description Return the settings in which runs differ, and the switches between their methods.
+         */
+        get: operations["get_config_comparison"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/compare/figure.{format}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Figure
+         * @description Draw a comparison, or send the numbers that would be drawn.
+         */
+        get: operations["get_figure"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/compare/metrics": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Compared Metrics
+         * @description List the metrics that runs have logged.
+         */
+        get: operations["list_compared_metrics"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/defaults": {
         parameters: {
             query?: never;
@@ -364,6 +484,178 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/studies": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Studies
+         * @description List studies, the newest first.
+         */
+        get: operations["list_studies"];
+        put?: never;
+        /**
+         * Create Study
+         * @description Make a study and queue the runs that nothing serves yet.
+         */
+        post: operations["create_study"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/studies/preview": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Preview Study
+         * @description Tell what launching a study, or a longer spec of one, would do and cost; queue nothing.
+         */
+        post: operations["preview_study"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/studies/templates": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Study Templates
+         * @description List the studies that come with the product: the paper's, its families, and one of two minutes.
+         */
+        get: operations["list_study_templates"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/studies/{study_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Study
+         * @description Return a study with all its cells.
+         */
+        get: operations["get_study"];
+        put?: never;
+        post?: never;
+        /**
+         * Delete Study
+         * @description Hide a study; its runs stay as they are.
+         */
+        delete: operations["delete_study"];
+        options?: never;
+        head?: never;
+        /**
+         * Change Study
+         * @description Give a study another name or note.
+         */
+        patch: operations["change_study"];
+        trace?: never;
+    };
+    "/api/studies/{study_id}/extend": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Extend Study
+         * @description Add tasks, methods or seeds to a study, and queue every run that it then misses.
+         */
+        post: operations["extend_study"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/studies/{study_id}/fill": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Fill Study
+         * @description Queue the runs that a study misses; asked again, it finds nothing to do.
+         */
+        post: operations["fill_study"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/studies/{study_id}/restore": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Restore Study
+         * @description Bring back a deleted study.
+         */
+        post: operations["restore_study"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/studies/{study_id}/retry": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Retry Study
+         * @description Try a study's failed or cancelled runs again, and first the locomotion runs that they need.
+         */
+        post: operations["retry_study"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/tasks/{task}/picture": {
         parameters: {
             query?: never;
@@ -564,6 +856,79 @@ export interface components {
             attempts: components["schemas"]["Attempt"][];
         };
         /**
+         * BestModels
+         * @description The best models of groups of runs, compared.
+         */
+        BestModels: {
+            /** Efficiency */
+            efficiency: components["schemas"]["Efficiency"][];
+            /** Groups */
+            groups: components["schemas"]["Group"][];
+            /** Improvements */
+            improvements: components["schemas"]["Improvement"][];
+            /** Left Out */
+            left_out: components["schemas"]["LeftOut"][];
+            /** Level */
+            level: number;
+            /** Overall */
+            overall: components["schemas"]["OverallScore"][];
+            /**
+             * Overall Tasks
+             * @description The tasks that every group has; `overall` and `profiles` are over them.
+             */
+            overall_tasks: string[];
+            /** Profiles */
+            profiles: components["schemas"]["Profile"][];
+            /** Runs */
+            runs: number;
+            /**
+             * Scores
+             * @description The bars of the paper's figure.
+             */
+            scores: components["schemas"]["BestScore"][];
+            /**
+             * Statistic
+             * @enum {string}
+             */
+            statistic: "median" | "mean" | "iqm" | "seeds";
+            /**
+             * Tables
+             * @description A plain table behind each chart.
+             */
+            tables: components["schemas"]["PlainTable"][];
+            /** Unread */
+            unread: number;
+            /**
+             * Version
+             * @description Changes when the answer does.
+             */
+            version: string;
+            words: components["schemas"]["Words"];
+        };
+        /**
+         * BestScore
+         * @description What the best models of one group reach in one task.
+         */
+        BestScore: {
+            /** Centre */
+            centre: number | null;
+            /** Group */
+            group: string;
+            /** High */
+            high: number | null;
+            /**
+             * Low
+             * @description Lower end of the interval; null below three seeds.
+             */
+            low: number | null;
+            /** N */
+            n: number;
+            /** Seeds */
+            seeds: components["schemas"]["SeedScore"][];
+            /** Task */
+            task: string;
+        };
+        /**
          * Choices
          * @description All that a launch can choose from.
          */
@@ -585,12 +950,170 @@ export interface components {
             tasks: components["schemas"]["Task"][];
         };
         /**
+         * ComparedConfig
+         * @description One run of a comparison of configs.
+         */
+        ComparedConfig: {
+            /** Method */
+            method: string;
+            /** Phase */
+            phase: string;
+            /** Preset */
+            preset: string;
+            /** Run Id */
+            run_id: string;
+            /** Seed */
+            seed: number;
+            /** Task */
+            task: string;
+        };
+        /**
+         * ConfigComparison
+         * @description By what the configs of runs differ; settings that all share are left out.
+         */
+        ConfigComparison: {
+            /**
+             * Methods
+             * @description Each pair of different methods among the runs.
+             */
+            methods: components["schemas"]["MethodPair"][];
+            /** Runs */
+            runs: components["schemas"]["ComparedConfig"][];
+            /** Settings */
+            settings: components["schemas"]["Setting"][];
+            /**
+             * Shared
+             * @description Settings in which all are alike.
+             */
+            shared: number;
+        };
+        /**
+         * CurveComparison
+         * @description Learning curves of groups of runs, one panel a task.
+         */
+        CurveComparison: {
+            /**
+             * Every
+             * @description 1 if each cycle was read, k if every k-th: a metric of so many points is thinned.
+             */
+            every: number;
+            /**
+             * Groups
+             * @description In the order of the legend.
+             */
+            groups: components["schemas"]["Group"][];
+            /** Left Out */
+            left_out: components["schemas"]["LeftOut"][];
+            /** Level */
+            level: number;
+            /** Metric */
+            metric: string;
+            /**
+             * Panels
+             * @description In the paper's order of tasks.
+             */
+            panels: components["schemas"]["Panel"][];
+            /**
+             * Runs
+             * @description Runs in the answer.
+             */
+            runs: number;
+            /**
+             * Statistic
+             * @enum {string}
+             */
+            statistic: "median" | "mean" | "iqm" | "seeds";
+            /**
+             * Unread
+             * @description Further runs that pass the filters; only the newest are read.
+             */
+            unread: number;
+            /**
+             * Version
+             * @description Changes when the answer does: the hash of the data that it was computed from.
+             */
+            version: string;
+            words: components["schemas"]["Words"];
+            /**
+             * X
+             * @enum {string}
+             */
+            x: "epoch" | "env_steps" | "episodes" | "updates" | "wall_seconds";
+        };
+        /**
+         * CurveLoss
+         * @description Where a curve loses seeds.
+         */
+        CurveLoss: {
+            /**
+             * After
+             * @description Seeds behind it.
+             */
+            after: number;
+            /**
+             * Before
+             * @description Seeds up to there.
+             */
+            before: number;
+            /**
+             * X
+             * @description The last place that has them all.
+             */
+            x: number;
+            /**
+             * Y
+             * @description The curve's centre there.
+             */
+            y: number | null;
+        };
+        /**
          * Draining
          * @description Whether a worker shall take no further run.
          */
         Draining: {
             /** Draining */
             draining: boolean;
+        };
+        /**
+         * Efficiency
+         * @description How much one group needs in one task until a test first reaches a threshold.
+         */
+        Efficiency: {
+            /**
+             * Axis
+             * @enum {string}
+             */
+            axis: "env_steps" | "wall_seconds";
+            /** Group */
+            group: string;
+            /**
+             * High
+             * @description Third quartile, likewise.
+             */
+            high: number | null;
+            /**
+             * Low
+             * @description First quartile, likewise.
+             */
+            low: number | null;
+            /**
+             * Median
+             * @description Null if half of the seeds or more have not reached it.
+             */
+            median: number | null;
+            /** N */
+            n: number;
+            /**
+             * Reached
+             * @description Seeds that have reached it.
+             */
+            reached: number;
+            /** Seeds */
+            seeds: components["schemas"]["SeedReach"][];
+            /** Task */
+            task: string;
+            /** Threshold */
+            threshold: number;
         };
         /**
          * Episode
@@ -732,6 +1255,88 @@ export interface components {
             };
         };
         /**
+         * Group
+         * @description Runs that are the same but for their task and seed.
+         */
+        Group: {
+            /**
+             * Color
+             * @description Which colour of the palette it has: its method's, everywhere the same.
+             */
+            color: number;
+            /**
+             * Dash
+             * @description Which dash pattern of the palette it has; variants of a method differ in it.
+             */
+            dash: number;
+            /**
+             * Key
+             * @description Names the group in every record of the answer, and in addresses.
+             */
+            key: string;
+            /**
+             * Label
+             * @description Its name for a person: the method's title, and the variant if there is one.
+             */
+            label: string;
+            /** Method */
+            method: string;
+            /**
+             * Variant
+             * @description What tells it apart from the method's other groups; empty if there is nothing.
+             */
+            variant: string;
+        };
+        /**
+         * GroupCurve
+         * @description What the seeds of one group say in one task. Columns are as long as `x`.
+         */
+        GroupCurve: {
+            /**
+             * Centre
+             * @description Empty when each seed is shown by itself.
+             */
+            centre: (number | null)[];
+            /**
+             * Group
+             * @description The group's key.
+             */
+            group: string;
+            /**
+             * Has Band
+             * @description False if the seeds' own lines are to be drawn: asked for, or too few for a band.
+             */
+            has_band: boolean;
+            /** High */
+            high: (number | null)[];
+            /**
+             * Legend
+             * @description Statistic, number of seeds and level in words.
+             */
+            legend: string;
+            /** Losses */
+            losses: components["schemas"]["CurveLoss"][];
+            /**
+             * Low
+             * @description Lower end of the band; null where it has fewer than three seeds.
+             */
+            low: (number | null)[];
+            /** Members */
+            members: components["schemas"]["Member"][];
+            /**
+             * N
+             * @description Seeds that have logged the metric at all.
+             */
+            n: number;
+            /**
+             * N At
+             * @description Seeds at each place.
+             */
+            n_at: number[];
+            /** X */
+            x: number[];
+        };
+        /**
          * Health
          * @description Whether the service can do its work.
          */
@@ -747,6 +1352,39 @@ export interface components {
             viewer_alive: boolean;
             /** Workers Alive */
             workers_alive: number;
+        };
+        /**
+         * Improvement
+         * @description How probably a run of one group beats a run of another, in a task drawn at random.
+         */
+        Improvement: {
+            /**
+             * First
+             * @description Key of the group that may be better.
+             */
+            first: string;
+            /** High */
+            high: number | null;
+            /**
+             * Low
+             * @description Lower end of the bootstrap interval; null if a task has fewer than three seeds of either.
+             */
+            low: number | null;
+            /**
+             * Probability
+             * @description Ties count half.
+             */
+            probability: number;
+            /**
+             * Second
+             * @description Key of the group that it is compared with.
+             */
+            second: string;
+            /**
+             * Tasks
+             * @description Tasks that both have.
+             */
+            tasks: number;
         };
         /**
          * Launch
@@ -792,6 +1430,28 @@ export interface components {
             runs: components["schemas"]["RunSummary"][];
         };
         /**
+         * LeftOut
+         * @description A run that was asked for and is not in the answer.
+         */
+        LeftOut: {
+            /**
+             * Group
+             * @description Its group's key.
+             */
+            group: string;
+            /**
+             * Reason
+             * @description Why, in one sentence.
+             */
+            reason: string;
+            /** Run Id */
+            run_id: string;
+            /** Seed */
+            seed: number;
+            /** Task */
+            task: string;
+        };
+        /**
          * LogTail
          * @description A piece of a run's log.
          */
@@ -803,6 +1463,32 @@ export interface components {
             offset: number;
             /** Text */
             text: string;
+        };
+        /**
+         * Member
+         * @description One seed of a curve.
+         */
+        Member: {
+            /**
+             * Points
+             * @description How often it has logged the metric.
+             */
+            points: number;
+            /** Run Id */
+            run_id: string;
+            /** Seed */
+            seed: number;
+            state: components["schemas"]["RunState"];
+            /**
+             * X
+             * @description Its own curve, every point of it up to a limit; null if only the aggregate was asked for.
+             */
+            x: number[] | null;
+            /**
+             * Y
+             * @description As long as `x`.
+             */
+            y: number[] | null;
         };
         /**
          * Method
@@ -820,6 +1506,32 @@ export interface components {
             phases: ("locomotion" | "manipulation")[];
             /** Summary */
             summary: string;
+            /** Title */
+            title: string;
+        };
+        /**
+         * MethodPair
+         * @description By what two methods differ.
+         */
+        MethodPair: {
+            /** First */
+            first: string;
+            /** Second */
+            second: string;
+            /** Switches */
+            switches: components["schemas"]["MethodSwitch"][];
+        };
+        /**
+         * MethodSwitch
+         * @description One thing by which two methods differ.
+         */
+        MethodSwitch: {
+            /** First */
+            first: string;
+            /** Name */
+            name: string;
+            /** Second */
+            second: string;
             /** Title */
             title: string;
         };
@@ -856,6 +1568,14 @@ export interface components {
             wall_seconds: number[];
         };
         /**
+         * MetricNames
+         * @description What can be compared.
+         */
+        MetricNames: {
+            /** Metrics */
+            metrics: string[];
+        };
+        /**
          * Move
          * @description A new place for a run that waits.
          */
@@ -865,6 +1585,87 @@ export interface components {
              * @description The waiting run that it shall start before; null for the end.
              */
             before: string | null;
+        };
+        /**
+         * OverallScore
+         * @description What the best models of one group reach over all tasks that every group has.
+         */
+        OverallScore: {
+            /** Group */
+            group: string;
+            /** High */
+            high: number | null;
+            /** Iqm */
+            iqm: number | null;
+            /** Low */
+            low: number | null;
+            /**
+             * N
+             * @description Runs, over all tasks.
+             */
+            n: number;
+            /** Tasks */
+            tasks: number;
+        };
+        /**
+         * Panel
+         * @description One task's curves.
+         */
+        Panel: {
+            /** Curves */
+            curves: components["schemas"]["GroupCurve"][];
+            /** Task */
+            task: string;
+        };
+        /**
+         * PlainTable
+         * @description What a chart shows, as rows.
+         */
+        PlainTable: {
+            /** Columns */
+            columns: components["schemas"]["TableColumn"][];
+            /** Name */
+            name: string;
+            /** Rows */
+            rows: (string | number | null)[][];
+            /** Title */
+            title: string;
+        };
+        /**
+         * PlannedLocomotion
+         * @description A locomotion run that new runs of a study need.
+         */
+        PlannedLocomotion: {
+            /**
+             * Run Id
+             * @description The existing run that is reused; null for a new one.
+             */
+            run_id: string | null;
+            /** Task */
+            task: string;
+        };
+        /**
+         * PlannedPlace
+         * @description One training of a study, and how it comes to its run.
+         */
+        PlannedPlace: {
+            /** Method */
+            method: string;
+            /**
+             * Run Id
+             * @description The existing run; null for a new one.
+             */
+            run_id: string | null;
+            /** Seed */
+            seed: number;
+            standing: components["schemas"]["Standing"];
+            /** Task */
+            task: string;
+            /**
+             * Variant
+             * @description Empty in a study without variants.
+             */
+            variant: string;
         };
         /**
          * PlannedRun
@@ -935,6 +1736,26 @@ export interface components {
         Problems: {
             /** Problems */
             problems: components["schemas"]["Problem"][];
+        };
+        /**
+         * Profile
+         * @description Which share of a group's runs is better than each threshold, every task weighing the same.
+         */
+        Profile: {
+            /** Group */
+            group: string;
+            /** High */
+            high: (number | null)[];
+            /** Low */
+            low: (number | null)[];
+            /** N */
+            n: number;
+            /** Share */
+            share: number[];
+            /** Tasks */
+            tasks: number;
+            /** Thresholds */
+            thresholds: number[];
         };
         /**
          * Progress
@@ -1259,6 +2080,438 @@ export interface components {
             task: string;
         };
         /**
+         * SeedReach
+         * @description When one seed first reached a threshold.
+         */
+        SeedReach: {
+            /**
+             * Observed
+             * @description How long it has been watched.
+             */
+            observed: number;
+            /**
+             * Reached
+             * @description Null if it has not.
+             */
+            reached: number | null;
+            /** Run Id */
+            run_id: string;
+            /** Seed */
+            seed: number;
+        };
+        /**
+         * SeedScore
+         * @description The best test of one seed.
+         */
+        SeedScore: {
+            /**
+             * Best
+             * @description Its highest value.
+             */
+            best: number;
+            /**
+             * Epoch
+             * @description When it was first reached.
+             */
+            epoch: number;
+            /** Run Id */
+            run_id: string;
+            /** Seed */
+            seed: number;
+            state: components["schemas"]["RunState"];
+            /**
+             * Tests
+             * @description Tests that the highest was taken from.
+             */
+            tests: number;
+        };
+        /**
+         * Setting
+         * @description A setting in which runs differ.
+         */
+        Setting: {
+            /** Name */
+            name: string;
+            /**
+             * Values
+             * @description As text, one a run; null where a run does not have it.
+             */
+            values: (string | null)[];
+        };
+        /**
+         * Standing
+         * @description How a place of a study comes to its run.
+         * @enum {string}
+         */
+        Standing: "new" | "joined" | "in_study";
+        /**
+         * Studies
+         * @description Studies, the newest first.
+         */
+        Studies: {
+            /** Studies */
+            studies: components["schemas"]["StudySummary"][];
+        };
+        /**
+         * StudyAddition
+         * @description What a study shall have besides.
+         */
+        StudyAddition: {
+            /** Methods */
+            methods?: string[];
+            /** Seeds */
+            seeds?: number[];
+            /** Tasks */
+            tasks?: string[];
+        };
+        /**
+         * StudyCell
+         * @description The runs of one task, method and variant.
+         */
+        StudyCell: {
+            /**
+             * Best Success Rate
+             * @description Median, over the seeds that have been tested, of the success of the best test.
+             */
+            best_success_rate: number | null;
+            /** Method */
+            method: string;
+            /**
+             * Missing Seeds
+             * @description Seeds that no run stands for.
+             */
+            missing_seeds: number[];
+            /**
+             * Progress
+             * @description Share of its trainings done, 0 to 1.
+             */
+            progress: number;
+            /**
+             * Runs
+             * @description One for each seed that has one.
+             */
+            runs: components["schemas"]["StudyRun"][];
+            /** States */
+            states: {
+                [key: string]: number;
+            };
+            /** Task */
+            task: string;
+            /**
+             * Tested
+             * @description Runs that have been tested.
+             */
+            tested: number;
+            /**
+             * Variant
+             * @description Empty in a study without variants.
+             */
+            variant: string;
+        };
+        /**
+         * StudyChange
+         * @description A new name or note; what is null stays.
+         */
+        StudyChange: {
+            /** Name */
+            name?: string | null;
+            /** Note */
+            note?: string | null;
+        };
+        /**
+         * StudyDetail
+         * @description A study with all its cells.
+         */
+        StudyDetail: {
+            /**
+             * Cells
+             * @description Task by task.
+             */
+            cells: components["schemas"]["StudyCell"][];
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /**
+             * Deleted At
+             * @description When a person hid it; it can be restored.
+             */
+            deleted_at: string | null;
+            /** Id */
+            id: string;
+            /**
+             * Locomotion
+             * @description The locomotion runs that its runs need, each once.
+             */
+            locomotion: components["schemas"]["StudyRun"][];
+            /** Name */
+            name: string;
+            /** Note */
+            note: string;
+            /**
+             * Progress
+             * @description Share of all its trainings done, 0 to 1.
+             */
+            progress: number;
+            /**
+             * Size
+             * @description Trainings that it asks for, locomotion runs not counted.
+             */
+            size: number;
+            spec: components["schemas"]["StudySpec"];
+            /**
+             * States
+             * @description How many of its runs are in each state.
+             */
+            states: {
+                [key: string]: number;
+            };
+        };
+        /**
+         * StudyEstimate
+         * @description What the new runs will cost, as far as this store's own runs tell.
+         */
+        StudyEstimate: {
+            /**
+             * Disk Bytes
+             * @description What their replay files take, nearly all that they write.
+             */
+            disk_bytes: number;
+            /**
+             * Disk Free Bytes
+             * @description What is free where this server keeps its data.
+             */
+            disk_free_bytes: number;
+            /**
+             * Slots
+             * @description Runs that the living workers can train at once.
+             */
+            slots: number;
+            /**
+             * Training S
+             * @description Time that they train, added up, in seconds; null if nobody knows.
+             */
+            training_s: number | null;
+            /**
+             * Unknown Runs
+             * @description Runs of whose like none has succeeded here.
+             */
+            unknown_runs: number;
+            /**
+             * Until Done S
+             * @description Time until all have ended if the living workers train nothing else; null if nobody knows.
+             */
+            until_done_s: number | null;
+        };
+        /**
+         * StudyLaunch
+         * @description A request to make a study and to queue what nothing serves yet.
+         */
+        StudyLaunch: {
+            /** Name */
+            name: string;
+            /**
+             * Note
+             * @default
+             */
+            note: string;
+            spec: components["schemas"]["StudySpec"];
+        };
+        /**
+         * StudyOutcome
+         * @description What launching a study, or more of it, has done.
+         */
+        StudyOutcome: {
+            /**
+             * Joined
+             * @description Trainings that a run from elsewhere serves.
+             */
+            joined: number;
+            /**
+             * Queued
+             * @description Runs that were made, locomotion runs counted.
+             */
+            queued: number;
+            /** Study Id */
+            study_id: string;
+        };
+        /**
+         * StudyPreview
+         * @description All that launching a study would do.
+         */
+        StudyPreview: {
+            estimate: components["schemas"]["StudyEstimate"];
+            /** Locomotion */
+            locomotion: components["schemas"]["PlannedLocomotion"][];
+            /** Places */
+            places: components["schemas"]["PlannedPlace"][];
+            /**
+             * Queued
+             * @description Runs that would be made, locomotion runs counted.
+             */
+            queued: number;
+        };
+        /**
+         * StudyPreviewRequest
+         * @description A study that could be launched, or a longer spec for one that is there.
+         */
+        StudyPreviewRequest: {
+            spec: components["schemas"]["StudySpec"];
+            /**
+             * Study Id
+             * @description The study that the spec would be for.
+             */
+            study_id?: string | null;
+        };
+        /**
+         * StudyRetry
+         * @description Which of a study's ended runs shall be tried again.
+         */
+        StudyRetry: {
+            /**
+             * Cancelled
+             * @description Those that a person cancelled, instead of those that failed.
+             * @default false
+             */
+            cancelled: boolean;
+        };
+        /**
+         * StudyRun
+         * @description How one run of a study stands.
+         */
+        StudyRun: {
+            /**
+             * Best Success Rate
+             * @description Success of its best test.
+             */
+            best_success_rate: number | null;
+            /**
+             * Progress
+             * @description Share of its training done, 0 to 1.
+             */
+            progress: number;
+            /**
+             * Reason
+             * @description Why it waits or ended so, in one sentence.
+             */
+            reason: string | null;
+            /** Run Id */
+            run_id: string;
+            /** Seed */
+            seed: number;
+            state: components["schemas"]["RunState"];
+            /** Task */
+            task: string;
+        };
+        /**
+         * StudySpec
+         * @description Every combination of tasks, methods, seeds and, if there are any, variants.
+         */
+        StudySpec: {
+            /** Methods */
+            methods: string[];
+            /**
+             * Overrides
+             * @description Settings laid over the preset in every run, nested.
+             */
+            overrides?: {
+                [key: string]: unknown;
+            };
+            /** Preset */
+            preset: string;
+            /** Seeds */
+            seeds: number[];
+            /** Tasks */
+            tasks: string[];
+            /** Variants */
+            variants?: components["schemas"]["StudyVariant"][];
+        };
+        /**
+         * StudySummary
+         * @description One row of the list of studies.
+         */
+        StudySummary: {
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /**
+             * Deleted At
+             * @description When a person hid it; it can be restored.
+             */
+            deleted_at: string | null;
+            /** Id */
+            id: string;
+            /** Name */
+            name: string;
+            /** Note */
+            note: string;
+            /**
+             * Progress
+             * @description Share of all its trainings done, 0 to 1.
+             */
+            progress: number;
+            /**
+             * Size
+             * @description Trainings that it asks for, locomotion runs not counted.
+             */
+            size: number;
+            spec: components["schemas"]["StudySpec"];
+            /**
+             * States
+             * @description How many of its runs are in each state.
+             */
+            states: {
+                [key: string]: number;
+            };
+        };
+        /**
+         * StudyTemplate
+         * @description A study that can be launched at once, or be changed first.
+         */
+        StudyTemplate: {
+            /** Name */
+            name: string;
+            spec: components["schemas"]["StudySpec"];
+            /** Summary */
+            summary: string;
+            /** Title */
+            title: string;
+        };
+        /**
+         * StudyTemplates
+         * @description The studies that come with the product.
+         */
+        StudyTemplates: {
+            /** Templates */
+            templates: components["schemas"]["StudyTemplate"][];
+        };
+        /**
+         * StudyVariant
+         * @description Settings that are tried beside others.
+         */
+        StudyVariant: {
+            /** Name */
+            name: string;
+            /**
+             * Overrides
+             * @description Settings laid over those of the study, nested.
+             */
+            overrides: {
+                [key: string]: unknown;
+            };
+        };
+        /**
+         * TableColumn
+         * @description One column of a plain table.
+         */
+        TableColumn: {
+            /** Title */
+            title: string;
+        };
+        /**
          * Task
          * @description One task, for the launch form.
          */
@@ -1316,6 +2569,27 @@ export interface components {
              * @description Path of the 3D page, below this server, once ready.
              */
             url: string | null;
+        };
+        /**
+         * Words
+         * @description The view in words, the same on the page, in figures and in tables.
+         */
+        Words: {
+            /**
+             * Metric
+             * @description Label of the vertical axis.
+             */
+            metric: string;
+            /**
+             * Statistic
+             * @description What line and band are, with level.
+             */
+            statistic: string;
+            /**
+             * X
+             * @description Label of the horizontal axis.
+             */
+            x: string;
         };
         /**
          * Worker
@@ -1400,24 +2674,45 @@ export type ActionResult = components['schemas']['ActionResult'];
 export type ActionResults = components['schemas']['ActionResults'];
 export type Attempt = components['schemas']['Attempt'];
 export type Attempts = components['schemas']['Attempts'];
+export type BestModels = components['schemas']['BestModels'];
+export type BestScore = components['schemas']['BestScore'];
 export type Choices = components['schemas']['Choices'];
+export type ComparedConfig = components['schemas']['ComparedConfig'];
+export type ConfigComparison = components['schemas']['ConfigComparison'];
+export type CurveComparison = components['schemas']['CurveComparison'];
+export type CurveLoss = components['schemas']['CurveLoss'];
 export type Draining = components['schemas']['Draining'];
+export type Efficiency = components['schemas']['Efficiency'];
 export type Episode = components['schemas']['Episode'];
 export type EpisodeList = components['schemas']['EpisodeList'];
 export type EpisodeTimelines = components['schemas']['EpisodeTimelines'];
+export type Group = components['schemas']['Group'];
+export type GroupCurve = components['schemas']['GroupCurve'];
 export type Health = components['schemas']['Health'];
+export type Improvement = components['schemas']['Improvement'];
 export type Launch = components['schemas']['Launch'];
 export type LaunchPlan = components['schemas']['LaunchPlan'];
 export type LaunchResult = components['schemas']['LaunchResult'];
+export type LeftOut = components['schemas']['LeftOut'];
 export type LogTail = components['schemas']['LogTail'];
+export type Member = components['schemas']['Member'];
 export type Method = components['schemas']['Method'];
+export type MethodPair = components['schemas']['MethodPair'];
+export type MethodSwitch = components['schemas']['MethodSwitch'];
 export type MetricBatch = components['schemas']['MetricBatch'];
+export type MetricNames = components['schemas']['MetricNames'];
 export type Move = components['schemas']['Move'];
+export type OverallScore = components['schemas']['OverallScore'];
+export type Panel = components['schemas']['Panel'];
+export type PlainTable = components['schemas']['PlainTable'];
+export type PlannedLocomotion = components['schemas']['PlannedLocomotion'];
+export type PlannedPlace = components['schemas']['PlannedPlace'];
 export type PlannedRun = components['schemas']['PlannedRun'];
 export type PresetSummary = components['schemas']['PresetSummary'];
 export type PriorityChange = components['schemas']['PriorityChange'];
 export type Problem = components['schemas']['Problem'];
 export type Problems = components['schemas']['Problems'];
+export type Profile = components['schemas']['Profile'];
 export type Progress = components['schemas']['Progress'];
 export type Queue = components['schemas']['Queue'];
 export type QueueEntry = components['schemas']['QueueEntry'];
@@ -1430,9 +2725,32 @@ export type RunFiles = components['schemas']['RunFiles'];
 export type RunPage = components['schemas']['RunPage'];
 export type RunState = components['schemas']['RunState'];
 export type RunSummary = components['schemas']['RunSummary'];
+export type SeedReach = components['schemas']['SeedReach'];
+export type SeedScore = components['schemas']['SeedScore'];
+export type Setting = components['schemas']['Setting'];
+export type Standing = components['schemas']['Standing'];
+export type Studies = components['schemas']['Studies'];
+export type StudyAddition = components['schemas']['StudyAddition'];
+export type StudyCell = components['schemas']['StudyCell'];
+export type StudyChange = components['schemas']['StudyChange'];
+export type StudyDetail = components['schemas']['StudyDetail'];
+export type StudyEstimate = components['schemas']['StudyEstimate'];
+export type StudyLaunch = components['schemas']['StudyLaunch'];
+export type StudyOutcome = components['schemas']['StudyOutcome'];
+export type StudyPreview = components['schemas']['StudyPreview'];
+export type StudyPreviewRequest = components['schemas']['StudyPreviewRequest'];
+export type StudyRetry = components['schemas']['StudyRetry'];
+export type StudyRun = components['schemas']['StudyRun'];
+export type StudySpec = components['schemas']['StudySpec'];
+export type StudySummary = components['schemas']['StudySummary'];
+export type StudyTemplate = components['schemas']['StudyTemplate'];
+export type StudyTemplates = components['schemas']['StudyTemplates'];
+export type StudyVariant = components['schemas']['StudyVariant'];
+export type TableColumn = components['schemas']['TableColumn'];
 export type Task = components['schemas']['Task'];
 export type ViewerRequest = components['schemas']['ViewerRequest'];
 export type ViewerSession = components['schemas']['ViewerSession'];
+export type Words = components['schemas']['Words'];
 export type Worker = components['schemas']['Worker'];
 export type WorkerRun = components['schemas']['WorkerRun'];
 export type Workers = components['schemas']['Workers'];
@@ -1454,6 +2772,466 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Choices"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    get_curves: {
+        parameters: {
+            query?: {
+                /** @description Which training is compared. */
+                phase?: "locomotion" | "manipulation";
+                /** @description Repeat for several; none: all. */
+                task?: string[];
+                /** @description Repeat for several; none: all. */
+                method?: string[];
+                /** @description Repeat for several; none: all. */
+                preset?: string[];
+                /** @description Ids of runs, to compare these only. */
+                run?: string[];
+                /** @description Id of a study: its runs only. */
+                study?: string | null;
+                metric?: string;
+                /** @description What curves are drawn over. */
+                x?: "epoch" | "env_steps" | "episodes" | "updates" | "wall_seconds";
+                /** @description `seeds` shows each by itself. */
+                statistic?: "median" | "mean" | "iqm" | "seeds";
+                /** @description Of confidence intervals. */
+                level?: number;
+                /** @description Whether to add each seed's own curve. */
+                seeds?: boolean;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CurveComparison"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    get_best_models: {
+        parameters: {
+            query?: {
+                /** @description Which training is compared. */
+                phase?: "locomotion" | "manipulation";
+                /** @description Repeat for several; none: all. */
+                task?: string[];
+                /** @description Repeat for several; none: all. */
+                method?: string[];
+                /** @description Repeat for several; none: all. */
+                preset?: string[];
+                /** @description Ids of runs, to compare these only. */
+                run?: string[];
+                /** @description Id of a study: its runs only. */
+                study?: string | null;
+                metric?: string;
+                /** @description What curves are drawn over. */
+                x?: "epoch" | "env_steps" | "episodes" | "updates" | "wall_seconds";
+                /** @description `seeds` shows each by itself. */
+                statistic?: "median" | "mean" | "iqm" | "seeds";
+                /** @description Of confidence intervals. */
+                level?: number;
+                /** @description Whether to add each seed's own curve. */
+                seeds?: boolean;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["BestModels"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    get_bundle: {
+        parameters: {
+            query?: {
+                /** @description Whether to leave out what tells who made it, and where. */
+                anonymous?: boolean;
+                /** @description Which training is compared. */
+                phase?: "locomotion" | "manipulation";
+                /** @description Repeat for several; none: all. */
+                task?: string[];
+                /** @description Repeat for several; none: all. */
+                method?: string[];
+                /** @description Repeat for several; none: all. */
+                preset?: string[];
+                /** @description Ids of runs, to compare these only. */
+                run?: string[];
+                /** @description Id of a study: its runs only. */
+                study?: string | null;
+                metric?: string;
+                /** @description What curves are drawn over. */
+                x?: "epoch" | "env_steps" | "episodes" | "updates" | "wall_seconds";
+                /** @description `seeds` shows each by itself. */
+                statistic?: "median" | "mean" | "iqm" | "seeds";
+                /** @description Of confidence intervals. */
+                level?: number;
+                /** @description Whether to add each seed's own curve. */
+                seeds?: boolean;
+                /** @description Learning curves, or bars of best models. */
+                kind?: "curves" | "best";
+                /** @description One column of a paper, both, or a slide. */
+                width?: "single" | "double" | "slide";
+                log_x?: boolean;
+                log_y?: boolean;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/zip": unknown;
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    get_config_comparison: {
+        parameters: {
+            query: {
+                /** @description Ids of runs. */
+                run: string[];
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ConfigComparison"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    get_figure: {
+        parameters: {
+            query?: {
+                /** @description Which training is compared. */
+                phase?: "locomotion" | "manipulation";
+                /** @description Repeat for several; none: all. */
+                task?: string[];
+                /** @description Repeat for several; none: all. */
+                method?: string[];
+                /** @description Repeat for several; none: all. */
+                preset?: string[];
+                /** @description Ids of runs, to compare these only. */
+                run?: string[];
+                /** @description Id of a study: its runs only. */
+                study?: string | null;
+                metric?: string;
+                /** @description What curves are drawn over. */
+                x?: "epoch" | "env_steps" | "episodes" | "updates" | "wall_seconds";
+                /** @description `seeds` shows each by itself. */
+                statistic?: "median" | "mean" | "iqm" | "seeds";
+                /** @description Of confidence intervals. */
+                level?: number;
+                /** @description Whether to add each seed's own curve. */
+                seeds?: boolean;
+                /** @description Learning curves, or bars of best models. */
+                kind?: "curves" | "best";
+                /** @description One column of a paper, both, or a slide. */
+                width?: "single" | "double" | "slide";
+                log_x?: boolean;
+                log_y?: boolean;
+            };
+            header?: never;
+            path: {
+                format: "svg" | "pdf" | "png" | "csv" | "tex";
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/pdf": unknown;
+                    "application/x-tex": unknown;
+                    "image/png": unknown;
+                    "image/svg+xml": unknown;
+                    "text/csv": unknown;
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    list_compared_metrics: {
+        parameters: {
+            query?: {
+                /** @description Which training is compared. */
+                phase?: "locomotion" | "manipulation";
+                /** @description Repeat for several; none: all. */
+                task?: string[];
+                /** @description Repeat for several; none: all. */
+                method?: string[];
+                /** @description Repeat for several; none: all. */
+                preset?: string[];
+                /** @description Ids of runs, to compare these only. */
+                run?: string[];
+                /** @description Id of a study: its runs only. */
+                study?: string | null;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MetricNames"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
                 };
             };
             /** @description An error of the service itself. */
@@ -2498,6 +4276,807 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    list_studies: {
+        parameters: {
+            query?: {
+                /** @description The studies that a person hid, instead of all others. */
+                deleted?: boolean;
+                limit?: number;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Studies"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    create_study: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["StudyLaunch"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StudyOutcome"];
+                };
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    preview_study: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["StudyPreviewRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StudyPreview"];
+                };
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    list_study_templates: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StudyTemplates"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    get_study: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                study_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StudyDetail"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    delete_study: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                study_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    change_study: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                study_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["StudyChange"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    extend_study: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                study_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["StudyAddition"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StudyOutcome"];
+                };
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    fill_study: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                study_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StudyOutcome"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    restore_study: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                study_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    retry_study: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                study_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["StudyRetry"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ActionResults"];
+                };
             };
             /** @description The request cannot be read. */
             400: {

@@ -8,6 +8,7 @@ import type { RunSummary } from '@/client/schema.gen';
 import { ButtonLink } from '@/components/anchor-link';
 import { Freshness } from '@/components/freshness';
 import { Icon } from '@/components/icon';
+import { SampleStudy } from '@/components/sample-study';
 import { SentencePanel } from '@/components/sentence-panel';
 import { sentence } from '@/lib/api';
 import { formatPlural } from '@/lib/format';
@@ -126,13 +127,17 @@ function NoRuns({ search }: { search: RunsSearch }) {
     <SentencePanel
       title="Nothing has been trained yet"
       actions={
-        <ButtonLink to="/launch" size="lg">
-          Launch the first run
-        </ButtonLink>
+        <>
+          <ButtonLink to="/launch" size="lg" variant="default">
+            Launch the first run
+          </ButtonLink>
+          <SampleStudy />
+        </>
       }
     >
       Choose a task, a method and seeds. An object first learns to move itself to its goal (locomotion); the robot then
-      learns from it (manipulation). With the preset “quick” you can watch both happen.
+      learns from it (manipulation). With the preset “quick” you can watch both happen. Or see everything at once: a
+      two-minute study trains FetchPush with two methods and three seeds.
     </SentencePanel>
   );
 }
