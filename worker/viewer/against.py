@@ -86,10 +86,9 @@ class Against:
 
     def distance(self, track: Track, step: int) -> dict[str, float]:
         """Return how far each part's object is a step later from where its ghost would be one step ahead [m]."""
-        return {
-            ghost.name: float(np.linalg.norm(ghost.lead(track, step) - ghost.object_position(track.moment(step + 1).qpos)))
-            for ghost in self._ghosts
-        }
+        later = track.moment(step + 1).qpos
+        apart = {ghost.name: ghost.lead(track, step) - ghost.object_position(later) for ghost in self._ghosts}
+        return {name: float(np.linalg.norm(way)) for name, way in apart.items()}
 
     def state(self) -> dict[str, Any]:
         """Return what is drawn."""
@@ -128,7 +127,7 @@ class _Ghost:
         self._moved = _moved_bodies(part.model, robot_scene, self._robot_lead)
         self._wanted = ActionArrows(server, f"/arrows/{self.name}/wanted", WANTED_RGB, size)
         self._induced = ActionArrows(server, f"/arrows/{self.name}/induced", INDUCED_RGB, size)
-        self._version = -1
+        self._version = (0, -1)
         self._steps: dict[int, Array] = {}
         self._wholes: dict[int, Array] = {}
         self._shown_path: NDArray[np.float64] | None = None
@@ -168,9 +167,7 @@ class _Ghost:
         if path is not self._shown_path:
             self._draw_path(path)
 
-    def draw_arrows(
-        self, wanted: NDArray[np.float32], induced: NDArray[np.float32], poses: Poses, turns: bool
-    ) -> None:
+    def draw_arrows(self, wanted: NDArray[np.float32], induced: NDArray[np.float32], poses: Poses, turns: bool) -> None:
         """Show what the object wanted, and what the robot made it do."""
         positions, quaternions = poses.pos[self._moved], poses.quat[self._moved]
         self._wanted.show(wanted, positions, quaternions, turns)
@@ -191,8 +188,8 @@ class _Ghost:
             self._line = self._server.scene.add_line_segments(self._path, points, WANTED_RGB, thickness=PATH_WIDTH)
 
     def _forget_replaced(self, track: Track) -> None:
-        if self._version != track.version:
-            self._version = track.version
+        if self._version != (id(track), track.version):
+            self._version = (id(track), track.version)
             self._steps, self._wholes = {}, {}
 
 

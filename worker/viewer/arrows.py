@@ -63,7 +63,9 @@ def push_and_turn(
     before = np.asarray(quaternions, dtype=np.float64)
     after = before + QUATERNION_SPEED * changes[:, 3:]
     after /= np.linalg.norm(after, axis=1, keepdims=True)
-    between = np.stack([multiply_quaternions(new, old * (1, -1, -1, -1)) for new, old in zip(after, before, strict=True)])
+    between = np.stack(
+        [multiply_quaternions(new, old * (1, -1, -1, -1)) for new, old in zip(after, before, strict=True)]
+    )
     between *= np.where(between[:, :1] < 0.0, -1.0, 1.0)
     return changes[:, :3], 2.0 * between[:, 1:] / FULL_TURN
 
@@ -92,7 +94,9 @@ class ActionArrows:
         """Draw nothing."""
         self._pushes.visible = self._turns.visible = False
 
-    def _add(self, server: viser.ViserServer, path: str, colour: tuple[int, int, int], shaft: float) -> viser.ArrowsHandle:
+    def _add(
+        self, server: viser.ViserServer, path: str, colour: tuple[int, int, int], shaft: float
+    ) -> viser.ArrowsHandle:
         return server.scene.add_arrows(
             path,
             np.array([[[0.0, 0.0, 0.0], [0.0, 0.0, 1e-3]]]),
@@ -103,9 +107,7 @@ class ActionArrows:
             visible=False,
         )
 
-    def _draw(
-        self, node: viser.ArrowsHandle, positions: NDArray[np.floating], shares: NDArray[np.floating]
-    ) -> None:
+    def _draw(self, node: viser.ArrowsHandle, positions: NDArray[np.floating], shares: NDArray[np.floating]) -> None:
         ends = positions + self._size.reach * shares
         long_enough = np.linalg.norm(ends - positions, axis=1) > SHORTEST
         node.visible = bool(long_enough.any())

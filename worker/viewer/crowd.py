@@ -48,8 +48,9 @@ class Crowd:
         """Move every body of every copy."""
         with self._server.atomic():
             for body, node in self._bodies.items():
-                node.batched_positions = np.stack([each.pos[body] for each in poses]) + self._offsets
-                node.batched_wxyzs = np.stack([each.quat[body] for each in poses])
+                positions = np.stack([each.pos[body] for each in poses]) + self._offsets
+                node.batched_positions = positions.astype(np.float32)
+                node.batched_wxyzs = np.stack([each.quat[body] for each in poses]).astype(np.float32)
 
     def show_goals(self, copy: int, positions: NDArray[np.float64], reached: bool) -> None:
         """Put the goals of one copy somewhere [m], `[goals, 3]`, in green if they are met."""
@@ -88,7 +89,11 @@ def _add_floor(server: viser.ViserServer, model: mujoco.MjModel) -> None:
     for geom in range(model.ngeom):
         if is_visible(model, geom) and model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_PLANE:
             server.scene.add_mesh_trimesh(
-                f"/crowd/floor{geom}", geom_mesh(model, geom), scale=2.0, position=model.geom_pos[geom], cast_shadow=False
+                f"/crowd/floor{geom}",
+                geom_mesh(model, geom),
+                scale=2.0,
+                position=model.geom_pos[geom],
+                cast_shadow=False,
             )
 
 

@@ -34,8 +34,15 @@ LABEL_HEIGHT = 0.35
 class Display(Protocol):
     """Draw tracks on the page."""
 
-    tracks: Sequence[Track]
-    against: Against | None
+    @property
+    def tracks(self) -> Sequence[Track]:
+        """What is drawn."""
+        ...
+
+    @property
+    def against(self) -> Against | None:
+        """The demonstration beside the only track, if there is one."""
+        ...
 
     @property
     def verbs(self) -> tuple[str, ...]:

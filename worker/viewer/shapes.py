@@ -96,9 +96,7 @@ def _rows(array: NDArray, start: int, count: int) -> NDArray:
     return array[int(start) : int(start) + int(count)]
 
 
-def _material(
-    model: mujoco.MjModel, geom: int, opacity: float, tint: tuple[float, float, float] | None
-) -> PBRMaterial:
+def _material(model: mujoco.MjModel, geom: int, opacity: float, tint: tuple[float, float, float] | None) -> PBRMaterial:
     rgba = geom_rgba(model, geom)
     if tint is not None:
         rgba[:3] = tint

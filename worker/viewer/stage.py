@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from sldr_core.config import TaskSpec
 from worker.viewer.against import VERBS, Against
 from worker.viewer.commands import Command, unknown_command
-from worker.viewer.scene import Kinematics, Look, SceneView, SOLID
+from worker.viewer.scene import SOLID, Kinematics, Look, SceneView
 from worker.viewer.tracks import Track, goal_positions
 
 PATH_RGB = (110, 110, 120)
@@ -52,7 +52,7 @@ class Stage:
         with self._server.atomic():
             self._view.show(poses)
             self._view.show_goals(goal_positions(self._task, now.goal), track.is_reached(step))
-            self._path.show(self._walked(track, step), (track.version, step))
+            self._path.show(self._walked(track, step), (id(track), track.version, step))
             if self.against is not None:
                 self.against.draw(track, step, poses)
 
@@ -89,27 +89,28 @@ def walked_lines(task: TaskSpec, achieved: NDArray[np.floating]) -> NDArray[np.f
 
 
 class PathLine:
-    """Draw line segments that are made anew only when they have changed."""
+    """Draw line segments that are sent anew only when they have changed.
+
+    Attributes:
+        version: of what is drawn.
+    """
 
     def __init__(self, server: viser.ViserServer, path: str, colour: tuple[int, int, int], width: float) -> None:
         self._server, self._path = server, path
         self._colour, self._width = colour, width
-        self._shown: object = None
+        self.version: object = None
         self._node: viser.LineSegmentsHandle | None = None
 
     def show(self, segments: NDArray[np.float64], version: object) -> None:
         """Draw segments `[lines, 2, 3]`; what has the version of the last call is drawn already."""
-        if version == self._shown:
+        if version == self.version:
             return
-        self._shown = version
+        self.version = version
         if not len(segments):
             if self._node is not None:
                 self._node.visible = False
         elif self._node is None:
-            self._node = self._server.scene.add_line_segments(
-                self._path, segments, self._colour, thickness=self._width
-            )
+            self._node = self._server.scene.add_line_segments(self._path, segments, self._colour, thickness=self._width)
         else:
             self._node.points = segments.astype(np.float32)
             self._node.visible = True
-

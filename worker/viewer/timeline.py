@@ -23,8 +23,8 @@ Q_PREFIX = "sldr/"
 def timeline(track: Track, envs: Envs, against: Against | None) -> dict[str, Any]:
     """Return the curves of a track, by `group/name`.
 
-    Groups are `q` (how the robot's move compares with what each part wanted), `reward` and `value` by stream, `distance`
-    (to the goal, and to each ghost one step ahead [m]), `angle` (to the goal [rad]) and `contact` (0 or 1).
+    Groups are `q` (how the robot's move compares with what each part wanted), `reward` and `value` by stream,
+    `distance` (to the goal, and to each ghost one step ahead [m]), `angle` (to the goal [rad]) and `contact` (0 or 1).
     """
     known = track.known
     judged = [track.judged(step) for step in range(known)]

@@ -76,24 +76,22 @@ class RecordedTrack:
 
     def __init__(self, test: RecordedTest, episode: RecordedEpisode) -> None:
         self._origin = test.origin
-        self._episode = episode
+        self.episode = episode
         self.config = config_from_dict(dict(test.origin.config))
         self.steps = self.known = episode.length
 
     def moment(self, step: int) -> Moment:
         """Return the episode at a step."""
-        episode = self._episode
-        return Moment(
-            episode.qpos[step], episode.qvel[step], episode.obs[step], episode.achieved[step], episode.goal
-        )
+        episode = self.episode
+        return Moment(episode.qpos[step], episode.qvel[step], episode.obs[step], episode.achieved[step], episode.goal)
 
     def is_reached(self, step: int) -> bool:
         """Tell whether the goal is met at a step."""
-        return bool(self._episode.success[step])
+        return bool(self.episode.success[step])
 
     def judged(self, step: int) -> Judged:
         """Return what the training's streams and critics said."""
-        episode, streams = self._episode, self._origin.streams
+        episode, streams = self.episode, self._origin.streams
         return Judged(
             dict(zip(streams, episode.reward[step].tolist(), strict=True)),
             dict(zip(streams, episode.value[step].tolist(), strict=True)),
@@ -105,7 +103,7 @@ class RecordedTrack:
         """Tell which objects the robot touches."""
         if self.config.phase == "locomotion":
             return {}
-        return dict(zip(self._origin.objects, self._episode.contact[step].tolist(), strict=True))
+        return dict(zip(self._origin.objects, self.episode.contact[step].tolist(), strict=True))
 
 
 class Judge(Protocol):
