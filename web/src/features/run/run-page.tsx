@@ -16,6 +16,7 @@ import { OverviewTab } from './components/overview-tab';
 import classes from './components/run.module.css';
 import { RunHeader } from './components/run-header';
 import { ViewerTab } from './components/viewer-tab';
+import { EpisodesTab } from './episodes/episodes-tab';
 import { type RunSearch, TABS, type Tab } from './search';
 
 const route = getRouteApi('/runs/$runId');
@@ -23,6 +24,7 @@ const route = getRouteApi('/runs/$runId');
 const TAB_NAMES: Record<Tab, string> = {
   overview: 'Overview',
   '3d': '3D',
+  episodes: 'Episodes',
   config: 'Config',
   log: 'Log',
   history: 'History',
@@ -73,6 +75,9 @@ function RunTabs({ run }: { run: RunDetail }) {
       </Tabs.Panel>
       <Tabs.Panel value="3d">
         <ViewerTab key={search.episode} run={run} episode={search.episode} />
+      </Tabs.Panel>
+      <Tabs.Panel value="episodes">
+        <EpisodesTab run={run} search={search} onShow={show} />
       </Tabs.Panel>
       <Tabs.Panel value="config">
         <ConfigTab run={run} />

@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import type { RunFile } from '@/client/schema.gen';
-import { FIRST_CHOICE, policyNames, readEpisode, recordedEpochs, sceneRequest } from './scene-choice';
+import { FIRST_CHOICE, policyNames, recordedEpochs, sceneRequest } from './scene-choice';
 
 function file(name: string, kind: string): RunFile {
   return { name, kind, size: 1, sha256: '', created_at: '', url: '' };
@@ -41,9 +41,4 @@ test('two policies are compared in one episode each', () => {
     episodes: 1,
     beside: { run_id: 's', policy: 'policy-best.pt' },
   });
-});
-
-test('an episode is read from an address, and nothing from nonsense', () => {
-  expect(readEpisode('12.0')).toEqual({ epoch: 12, index: 0 });
-  for (const text of [undefined, '', '12', '1.2.3', 'a.b', '-1.0']) expect(readEpisode(text)).toBeUndefined();
 });
