@@ -593,23 +593,6 @@ export interface components {
             draining: boolean;
         };
         /**
-<<<<<<< HEAD
-         * EpisodeView
-         * @description Watch an episode that was recorded in a test.
-         */
-        EpisodeView: {
-            /** Epoch */
-            epoch: number;
-            /** Index */
-            index: number;
-            /**
-             * @description discriminator enum property added by openapi-typescript
-             * @enum {string}
-             */
-            kind: "episode";
-            /** Run Id */
-            run_id: string;
-=======
          * Episode
          * @description One recorded episode of a test.
          */
@@ -747,7 +730,23 @@ export interface components {
             wanted: {
                 [key: string]: (number | null)[][];
             };
->>>>>>> episodes
+        };
+        /**
+         * EpisodeView
+         * @description Watch an episode that was recorded in a test.
+         */
+        EpisodeView: {
+            /** Epoch */
+            epoch: number;
+            /** Index */
+            index: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "episode";
+            /** Run Id */
+            run_id: string;
         };
         /**
          * Health
@@ -1467,13 +1466,10 @@ export type Attempt = components['schemas']['Attempt'];
 export type Attempts = components['schemas']['Attempts'];
 export type Choices = components['schemas']['Choices'];
 export type Draining = components['schemas']['Draining'];
-<<<<<<< HEAD
-export type EpisodeView = components['schemas']['EpisodeView'];
-=======
 export type Episode = components['schemas']['Episode'];
 export type EpisodeList = components['schemas']['EpisodeList'];
 export type EpisodeTimelines = components['schemas']['EpisodeTimelines'];
->>>>>>> episodes
+export type EpisodeView = components['schemas']['EpisodeView'];
 export type Health = components['schemas']['Health'];
 export type Launch = components['schemas']['Launch'];
 export type LaunchPlan = components['schemas']['LaunchPlan'];
