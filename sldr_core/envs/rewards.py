@@ -73,6 +73,18 @@ def is_success(criterion: Criterion, achieved: Goals, goal: Goals) -> NDArray[np
     return reached
 
 
+def scored_gaps(criterion: Criterion, achieved: Goals, goal: Goals) -> dict[str, NDArray[np.floating]]:
+    """Return how far goals `[..., G]` are, each `[...]`: `distance` [m] and `angle` [rad], those that are scored."""
+    if isinstance(criterion, PositionGoals):
+        return {"distance": goal_distance(criterion, achieved, goal)}
+    gaps: dict[str, NDArray[np.floating]] = {}
+    if criterion.distance is not None:
+        gaps["distance"] = _pose_distance(achieved, goal)
+    if criterion.angle is not None:
+        gaps["angle"] = _pose_angle(criterion, achieved, goal)
+    return gaps
+
+
 def goal_gaps(criterion: Criterion, goals: Goals, others: Goals) -> NDArray[np.float64]:
     """Return Euclidean distances `[..., M, N]` of goals `[..., M, G]` from others `[..., N, G]`.
 
