@@ -25,7 +25,7 @@ from sqlalchemy import (
     false,
 )
 
-SCHEMA_REVISION = "0002"
+SCHEMA_REVISION = "0006"
 """The migration that these tables correspond to."""
 
 AnyRow = Row[*tuple[Any, ...]]
@@ -225,9 +225,11 @@ viewer_sessions = Table(
     metadata,
     Column("id", String(ID_LENGTH), primary_key=True),
     Column("run_id", String(ID_LENGTH), ForeignKey("runs.id"), nullable=False),
+    Column("request", JSON),
     Column("state", String(ID_LENGTH), nullable=False, index=True),
     Column("host_id", String(ID_LENGTH)),
     Column("port", Integer),
+    Column("control_port", Integer),
     Column("message", Text),
     Column("created_at", UtcDateTime, nullable=False),
     Column("touched_at", UtcDateTime, nullable=False),

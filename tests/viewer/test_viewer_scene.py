@@ -14,9 +14,7 @@ import viser
 from trimesh.visual import TextureVisuals
 from trimesh.visual.material import PBRMaterial
 
-from sldr_core.config import find_task
 from sldr_core.envs import make_envs
-from worker.viewer.camera import find_camera
 from worker.viewer.dress import dress, geom_rgba, is_visible
 from worker.viewer.page import open_page
 from worker.viewer.scene import Kinematics, Poses, SceneView
@@ -51,7 +49,7 @@ HALF_SIZES = {
 
 @pytest.fixture(scope="module")
 def server() -> Iterator[viser.ViserServer]:
-    server = open_page(find_camera(find_task("FetchPush"), "manipulation"))
+    server = open_page()
     yield server
     server.stop()
 
