@@ -16,8 +16,10 @@ from sldr_core.demonstrations.inspected import Inspected, load_inspected
 from sldr_core.demonstrations.landscape import Landscape, Slice, evaluate_slice, evaluate_turns
 from sldr_core.demonstrations.outcomes import Failure, Summary, list_failures, steps_to_goal, summarise
 from sldr_core.demonstrations.placing import Placing
+from sldr_core.demonstrations.slices import SliceChoices, slices_of
 from sldr_core.demonstrations.spaces import spaces_of
 from sldr_core.demonstrations.starts import Drawn, StackStarts, StartSource, TaskStarts
+from sldr_core.demonstrations.wishes import Wish, read_wish
 
 __all__ = [
     "BLOCK",
@@ -33,17 +35,21 @@ __all__ = [
     "Landscape",
     "Placing",
     "Slice",
+    "SliceChoices",
     "Space",
     "StackStarts",
     "StartSource",
     "Summary",
     "TaskStarts",
+    "Wish",
     "cover",
     "demonstrate",
     "evaluate_slice",
     "evaluate_turns",
     "list_failures",
     "load_inspected",
+    "read_wish",
+    "slices_of",
     "spaces_of",
     "steps_to_goal",
     "summarise",

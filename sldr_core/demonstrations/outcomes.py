@@ -81,6 +81,8 @@ def summarise(reached: NDArray[np.bool_]) -> Summary:
 def list_failures(task: TaskSpec, fan: Fan, most: int) -> list[Failure]:
     """Return the failures of a fan, those that ended farthest from their goals first, at most so many."""
     failed = np.flatnonzero(~fan.reached[:, -1])
+    if not failed.size:
+        return []
     gaps = scored_gaps(task.goal, fan.achieved[failed, -1], fan.start.goal[failed])
     # Each gap in units of what still counts as success, so that metres and radians can be compared.
     limits = {"distance": task.success_distance, "angle": task.success_angle}

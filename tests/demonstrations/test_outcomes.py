@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -51,3 +53,8 @@ def test_failures_are_all_that_ended_away_from_their_goals_the_farthest_first(pu
         assert (failure.ending == "left") == bool(push_fan.reached[failure.index].any())
         assert failure.goal == tuple(push_fan.start.goal[failure.index])
     assert [failure.index for failure in list_failures(task, push_fan, most=2)] == expected[:2]
+
+
+def test_a_fan_without_failures_has_none_to_list(push_fan):
+    all_reached = replace(push_fan, reached=np.ones_like(push_fan.reached))
+    assert list_failures(find_task("FetchPush"), all_reached, most=5) == []

@@ -99,7 +99,11 @@ def _live(files: RunFiles, session: Session) -> Files:
     }
 
 
-FINDERS: dict[str, Callable[[RunFiles, Session], Files]] = {"live": _live}
+def _inspector(files: RunFiles, session: Session) -> Files:
+    return {"locomotion": (files.file(session.run_id, LOCOMOTION_FILE),)}
+
+
+FINDERS: dict[str, Callable[[RunFiles, Session], Files]] = {"live": _live, "inspector": _inspector}
 """What is brought for each kind of request."""
 
 

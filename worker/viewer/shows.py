@@ -27,7 +27,13 @@ def _live(server: viser.ViserServer, job: Job) -> Show:
     return open_live(server, job)
 
 
-SHOWS: dict[str, Opener] = {"live": _live}
+def _inspector(server: viser.ViserServer, job: Job) -> Show:
+    from worker.viewer.inspector.show import open_inspector
+
+    return open_inspector(server, job)
+
+
+SHOWS: dict[str, Opener] = {"live": _live, "inspector": _inspector}
 """How each kind of request is shown."""
 
 
