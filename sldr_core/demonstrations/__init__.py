@@ -19,7 +19,6 @@ from sldr_core.demonstrations.placing import Placing
 from sldr_core.demonstrations.slices import SliceChoices, slices_of
 from sldr_core.demonstrations.spaces import spaces_of
 from sldr_core.demonstrations.starts import Drawn, StackStarts, StartSource, TaskStarts
-from sldr_core.demonstrations.wishes import Wish, read_wish
 
 __all__ = [
     "BLOCK",
@@ -41,14 +40,12 @@ __all__ = [
     "StartSource",
     "Summary",
     "TaskStarts",
-    "Wish",
     "cover",
     "demonstrate",
     "evaluate_slice",
     "evaluate_turns",
     "list_failures",
     "load_inspected",
-    "read_wish",
     "slices_of",
     "spaces_of",
     "steps_to_goal",

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from sldr_core.config import TaskSpec
 from sldr_core.demonstrations.collecting import Fan
-from sldr_core.envs.rewards import scored_gaps
+from sldr_core.envs.rewards import Offsets, goal_offsets
 from sldr_core.training.testing import wilson_interval
 
 CONTROL_S = 0.04
@@ -83,15 +83,18 @@ def list_failures(task: TaskSpec, fan: Fan, most: int) -> list[Failure]:
     failed = np.flatnonzero(~fan.reached[:, -1])
     if not failed.size:
         return []
-    gaps = scored_gaps(task.goal, fan.achieved[failed, -1], fan.start.goal[failed])
-    # Each gap in units of what still counts as success, so that metres and radians can be compared.
-    limits = {"distance": task.success_distance, "angle": task.success_angle}
-    excess = np.max([values / (limits[name] or 1.0) for name, values in gaps.items()], axis=0)
-    farthest = np.argsort(-excess, kind="stable")[:most].tolist()
+    offsets = goal_offsets(task.goal, fan.achieved[failed, -1], fan.start.goal[failed])
+    gaps = scored_gaps(task, offsets)
     return [
         _failure(fan, int(failed[place]), {name: float(values[place]) for name, values in gaps.items()})
-        for place in farthest
+        for place in np.argsort(-offsets.gap, kind="stable")[:most].tolist()
     ]
+
+
+def scored_gaps(task: TaskSpec, offsets: Offsets) -> dict[str, NDArray[np.float64]]:
+    """Return what of offsets the task scores: `distance` [m], `angle` [rad]."""
+    named = {"distance": (task.success_distance, offsets.distance), "angle": (task.success_angle, offsets.angle)}
+    return {name: values for name, (limit, values) in named.items() if limit is not None}
 
 
 def _failure(fan: Fan, index: int, gaps: dict[str, float]) -> Failure:

@@ -16,7 +16,7 @@ from sldr_core.config import FetchScene, HandScene, PoseGoal, StackScene, TableS
 from sldr_core.demonstrations.coverage import Axis, Coordinates, Space
 from sldr_core.demonstrations.placing import joint_pose
 from sldr_core.envs import Start
-from sldr_core.envs.rewards import scored_gaps
+from sldr_core.envs.rewards import goal_offsets
 from sldr_core.envs.rotations import rotation_vector, turn_between
 from sldr_core.envs.scenes.fetch import FetchStart, settle_fetch
 from sldr_core.envs.scenes.stack import settle_stack
@@ -150,7 +150,7 @@ def _hand_spaces(task: TaskSpec, scene: HandScene, pose: slice) -> tuple[Space, 
 def _turns(task: TaskSpec, pose: slice, start: Start, numbers: Numbers) -> Array:
     """Return the angle [°] that is scored between start and goal, and the direction that is nearest to its axis."""
     lies = start.qpos[:, pose]
-    angle = np.degrees(scored_gaps(task.goal, lies, start.goal)["angle"])
+    angle = np.degrees(goal_offsets(task.goal, lies, start.goal).angle)
     axis = rotation_vector(turn_between(lies[:, 3:], start.goal[:, 3:]))
     nearest = np.abs(axis).argmax(axis=1)
     backwards = np.take_along_axis(axis, nearest[:, None], axis=1)[:, 0] < 0.0

@@ -52,11 +52,18 @@ class Simulated:
         version: counts the changes of what was known: new episodes and branches.
     """
 
-    def __init__(self, envs: Envs, act: Act) -> None:
+    def __init__(self, envs: Envs, act: Act, begin: Callable[[Envs], object] = Envs.reset) -> None:
+        """Begin the first episode.
+
+        Args:
+            envs: the simulations, which belong to this object from now on.
+            act: what is done in them.
+            begin: puts every simulation to a new start.
+        """
         self.envs = envs
         self.steps = envs.episode_length
         self.version = 0
-        self._act = act
+        self._act, self._begin = act, begin
         self._known: list[_Known] = []
         self._actions: list[NDArray[np.float32]] = []
         self.restart()
@@ -73,7 +80,7 @@ class Simulated:
 
     def restart(self) -> None:
         """Begin a new episode in every lane, from new starts and toward new goals."""
-        self.envs.reset()
+        self._begin(self.envs)
         self._known, self._actions = [self._see()], []
         self.version += 1
 

@@ -9,11 +9,12 @@ from backend.api.dependencies import Store, Tokens
 from backend.api.errors import ApiError, problem_responses
 from backend.api.schemas import ViewerSession
 from backend.api.tokens import ViewerTokens
-from backend.api.viewer_requests import NEWEST, LiveView, ViewerRequest
+from backend.api.viewer_requests import NEWEST, EpisodeView, LiveView, ViewerRequest
 from backend.store import viewer_sessions
 from backend.store.database import Database
-from backend.store.files import list_files
+from backend.store.files import FileRow, list_files
 from backend.store.runs import RunRow, get_run
+from sldr_core.episodes import episodes_file
 
 POLICY_KINDS = ("policy", "checkpoint", "locomotion")
 """Kinds of files that a policy can be read from."""
@@ -25,7 +26,10 @@ router = APIRouter(prefix="/api/viewer-sessions", tags=["viewer sessions"])
 def create_viewer_session(request: ViewerRequest, store: Store, tokens: Tokens) -> ViewerSession:
     """Ask the viewer host to show something of a run: see the kinds of views."""
     run = get_run(store, request.run_id)
-    if not has_policy(list_files(store, run.id)):
+    files = list_files(store, run.id)
+    if isinstance(request, EpisodeView):
+        _check_episodes(run, files, request)
+    elif not has_policy(files):
         raise ApiError(409, f"Run {run.id} has no policy to watch yet; wait for its first test.", "run_id")
     if isinstance(request, LiveView):
         _check_policies(store, run, request)
@@ -46,6 +50,12 @@ def end_viewer_session(session_id: str, store: Store) -> None:
     """End a session and free what it holds."""
     viewer_sessions.get_session(store, session_id)
     viewer_sessions.mark_ended(store, session_id, message="It was closed.")
+
+
+def _check_episodes(run: RunRow, files: list[FileRow], request: EpisodeView) -> None:
+    """Refuse an epoch that was not recorded."""
+    if episodes_file(request.epoch) not in {file.name for file in files}:
+        raise ApiError(409, f"Run {run.id} has no recorded episodes of epoch {request.epoch}; see its list.", "epoch")
 
 
 def _check_policies(store: Database, run: RunRow, request: LiveView) -> None:

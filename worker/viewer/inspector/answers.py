@@ -20,8 +20,9 @@ from sldr_core.demonstrations import (
     summarise,
 )
 from sldr_core.demonstrations.landscape import values_of
+from sldr_core.demonstrations.outcomes import scored_gaps
 from sldr_core.demonstrations.slices import AXES, TITLES
-from sldr_core.envs.rewards import scored_gaps
+from sldr_core.envs.rewards import goal_offsets
 from worker.viewer.inspector.colours import SCALE
 from worker.viewer.inspector.inspection import Inspection
 
@@ -120,12 +121,12 @@ def tell_failures(inspection: Inspection) -> Answer:
 
 def tell_timeline(inspection: Inspection) -> Answer:
     """Return what each object did at every step: Q(z, u, g) `[T]`, gaps to the goal `[T+1]`, whether it was met."""
-    shown, nets = inspection.demonstration, inspection.inspected.model.nets
+    shown, nets, task = inspection.demonstration, inspection.inspected.model.nets, inspection.inspected.task
     lines = []
     for part, name in enumerate(_objects(inspection)):
         goal = shown.start.goal[part]
         value = values_of(nets, shown.state[part, :-1], goal[None], shown.action[part])
-        gaps = scored_gaps(inspection.inspected.task.goal, shown.achieved[part], goal[None])
+        gaps = scored_gaps(task, goal_offsets(task.goal, shown.achieved[part], goal[None]))
         lines.append(
             {
                 "object": name,

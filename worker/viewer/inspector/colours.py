@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 Colours = NDArray[np.uint8]
 
-SUCCESS_RGB = (0, 103, 168)
+SUCCESS_RGB = (0, 128, 92)
 """Paths of demonstrations that ended at their goals."""
 
 FAILURE_RGB = (213, 94, 0)
@@ -15,12 +15,6 @@ FAILURE_RGB = (213, 94, 0)
 
 SHOWN_RGB = (20, 20, 24)
 """The path of the demonstration that is played."""
-
-MOVE_RGB = (0, 0, 0)
-"""The arrow of where the object wants to go."""
-
-TURN_RGB = (168, 60, 150)
-"""The arrow of the axis about which it wants to turn."""
 
 SCALE: Colours = np.array(
     [

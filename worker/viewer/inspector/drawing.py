@@ -8,12 +8,12 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
-from sldr_core.demonstrations import Landscape, Wish, evaluate_turns, read_wish
-from worker.viewer.inspector.arrows import Arrows
+from sldr_core.demonstrations import Landscape, evaluate_turns
+from worker.viewer.arrows import HAND_ARROWS, TABLE_ARROWS, WANTED_RGB, ActionArrows
+from worker.viewer.inspector.acting_scene import ActingScene, Moment
 from worker.viewer.inspector.grips import Grips
 from worker.viewer.inspector.inspection import Inspection
 from worker.viewer.inspector.paths import Paths
-from worker.viewer.inspector.stage import Moment, Stage
 from worker.viewer.inspector.surfaces import SHELL_ANGLE, Surfaces, sheet_of
 
 
@@ -39,18 +39,19 @@ class Drawing:
     def __init__(self, server: viser.ViserServer, inspection: Inspection) -> None:
         self._server, self._inspection = server, inspection
         task = inspection.inspected.task
-        self._paths, self._arrows = Paths(server, task), Arrows(server)
+        self._arrow_size = HAND_ARROWS if task.family == "hand" else TABLE_ARROWS
+        self._paths, self._arrows = Paths(server, task), ActionArrows(server, "/wanted", WANTED_RGB, self._arrow_size)
         self._surfaces, self._grips = Surfaces(server), Grips(server, task)
-        self._stage = self._open_stage()
+        self._scene = self._open_scene()
         self._path_version = self._fan_version = -1
 
     def change_scene(self) -> None:
         """Draw the scene of the starts that are used now."""
-        self._arrows.clear()
+        self._arrows.hide()
         self._surfaces.clear()
         self._grips.clear()
-        self._stage.remove()
-        self._stage = self._open_stage()
+        self._scene.remove()
+        self._scene = self._open_scene()
 
     def take_drags(self) -> bool:
         """Put object and goal where they were dragged to, and tell whether they were."""
@@ -61,15 +62,16 @@ class Drawing:
         shown = self._inspection.demonstration
         later = min(step + 1, shown.steps)
         now = Moment(shown.qpos[:, step], shown.start.goal, shown.reached[:, step])
-        poses = self._stage.poses(now.qpos)
-        between = poses.towards(self._stage.poses(shown.qpos[:, later]), share) if share > 0.0 else poses
+        poses = self._scene.poses(now.qpos)
+        between = poses.towards(self._scene.poses(shown.qpos[:, later]), share) if share > 0.0 else poses
         with self._server.atomic():
-            self._stage.show(between, now)
+            self._scene.show(between, now)
             if looks.arrows:
-                bodies = self._stage.pulled_bodies()
-                self._arrows.show(between.pos[bodies], self._wish(min(step, shown.steps - 1), poses.quat[bodies]))
+                bodies = self._scene.pulled_bodies()
+                action = shown.action[:, min(step, shown.steps - 1)].ravel()
+                self._arrows.show(action, between.pos[bodies], poses.quat[bodies])
             else:
-                self._arrows.clear()
+                self._arrows.hide()
 
     def show_paths(self, looks: Looks) -> None:
         """Draw the paths that have changed."""
@@ -106,15 +108,12 @@ class Drawing:
             self._surfaces.show_shell(values, place)
         else:
             at = goal[:3] if landscape.slice.kind == "goal" else place
-            self._surfaces.show_sheet(landscape, sheet_of(landscape, at, float(inspection.placing.rest[2])))
+            self._surfaces.show_sheet(landscape, sheet_of(landscape, at, self._arrow_size.reach))
 
-    def _open_stage(self) -> Stage:
-        return Stage(self._server, self._inspection.source.task, self._inspection.envs.model)
+    def _open_scene(self) -> ActingScene:
+        return ActingScene(self._server, self._inspection.source.task, self._inspection.envs.model)
 
     def _places(self, step: int) -> NDArray[np.float64]:
         """Return where the bodies that act are at a step [m], `[M, 3]`."""
-        poses = self._stage.poses(self._inspection.demonstration.qpos[:, step])
-        return poses.pos[self._stage.pulled_bodies()]
-
-    def _wish(self, step: int, quaternion: NDArray[np.float64]) -> Wish:
-        return read_wish(self._inspection.demonstration.action[:, step].ravel(), quaternion)
+        poses = self._scene.poses(self._inspection.demonstration.qpos[:, step])
+        return poses.pos[self._scene.pulled_bodies()]

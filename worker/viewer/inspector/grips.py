@@ -11,12 +11,8 @@ import viser
 from numpy.typing import NDArray
 
 from sldr_core.config import PoseGoal, TaskSpec
-
-GRIP_SIZE = {"hand": 0.06}
-"""Length of a grip's arrows by family [m]."""
-
-USUAL_SIZE = 0.09
-"""Length of a grip's arrows elsewhere [m]."""
+from sldr_core.envs.hand import TARGET_ASIDE
+from worker.viewer.gizmos import HAND_SIZE, TABLE_SIZE, is_shown_aside
 
 Array = NDArray[np.float64]
 Pose = tuple[Array, Array]
@@ -57,7 +53,8 @@ class Grips:
 
     def show(self, start: Pose, goal: Pose) -> None:
         """Put them where object and goal are."""
-        for name, pose in (("start", start), ("goal", goal)):
+        aside = np.asarray(TARGET_ASIDE) if is_shown_aside(self._task) else np.zeros(3)
+        for name, pose in (("start", start), ("goal", (goal[0] + aside, goal[1]))):
             grip = self._grips.get(name) or self._add(name, pose)
             grip.node.position, grip.node.wxyz = pose
 
@@ -80,7 +77,7 @@ class Grips:
         moves = name == "start" or not isinstance(goal, PoseGoal) or goal.distance is not None
         node = self._server.scene.add_transform_controls(
             f"/grips/{name}",
-            scale=GRIP_SIZE.get(self._task.family, USUAL_SIZE),
+            scale=HAND_SIZE if self._task.family == "hand" else TABLE_SIZE,
             disable_axes=not moves,
             disable_sliders=not moves,
             disable_rotations=not turns,

@@ -24,9 +24,6 @@ LIFT = 0.002
 CONTOURS = 10
 """Lines of equal value cut the range of a sheet into so many parts."""
 
-ACTION_REACH = 0.1
-"""How far from the object a sheet of actions reaches: a full action points there [m]."""
-
 SHELL_RADIUS = 0.075
 """The dots of a shell are so far from the object's middle [m]."""
 
@@ -61,23 +58,23 @@ class Sheet:
         return np.asarray(trimesh.transformations.quaternion_from_matrix(matrix))
 
 
-def sheet_of(landscape: Landscape, place: Array, floor: float) -> Sheet:
+def sheet_of(landscape: Landscape, place: Array, reach: float) -> Sheet:
     """Return where the sheet of a slice lies.
 
     Args:
         landscape: a slice of places, goals or actions.
         place: where the object, or its goal, is now [m], `[3]`; the sheet goes through it.
-        floor: half an object below this is the table's top [m].
+        reach: from the object to the tip of the arrow of a full push [m]: a sheet of actions ends there.
     """
     plane = landscape.slice
     if plane.kind == "action":
         axes = (plane.axes[0] % 3, plane.axes[1] % 3)
-        return Sheet(place.copy(), axes, (2 * ACTION_REACH, 2 * ACTION_REACH))
+        return Sheet(place.copy(), axes, (2 * reach, 2 * reach))
     centre = place.copy()
     for axis, (low, high) in zip(plane.axes, (plane.across, plane.up), strict=True):
         centre[axis] = 0.5 * (low + high)
     if 2 not in plane.axes:
-        centre[2] = max(floor, float(place[2])) - BLOCK_HALF + LIFT
+        centre[2] = float(place[2]) - BLOCK_HALF + LIFT
     return Sheet(centre, plane.axes, (plane.across[1] - plane.across[0], plane.up[1] - plane.up[0]))
 
 

@@ -16,11 +16,8 @@ from sldr_core.config import StackScene, TaskSpec
 from sldr_core.demonstrations.placing import joint_pose
 from sldr_core.envs.scenes.hand import OBJECT
 from sldr_core.envs.scenes.stack import build_stack
-from worker.viewer.dress import GOAL_RGBA, goal_sites
 from worker.viewer.scene import Kinematics, Poses, SceneView
-
-GOAL_RADIUS = 0.02
-"""Radius of the balls that mark several goals [m]."""
+from worker.viewer.tracks import goal_positions
 
 Array = NDArray[np.float64]
 
@@ -37,7 +34,7 @@ class Moment:
     """`[P]`."""
 
 
-class Stage:
+class ActingScene:
     """Draw bodies and goals."""
 
     def __init__(self, server: viser.ViserServer, task: TaskSpec, acting: mujoco.MjModel) -> None:
@@ -53,14 +50,11 @@ class Stage:
         self.model = build_stack(scene, has_robot=False) if isinstance(scene, StackScene) else acting
         self._server, self._acting, self._task = server, acting, task
         self._kinematics = Kinematics(self.model)
-        prefix = f"/stage-{task.name}"
-        self._root = server.scene.add_frame(prefix, show_axes=False)
-        self._view = SceneView(server, self.model, prefix=prefix)
-        self._balls = self._add_balls()
+        self._view = SceneView(server, self.model, prefix=f"/{task.name}")
 
     def remove(self) -> None:
         """Take everything out of the page."""
-        self._root.remove()
+        self._view.root.remove()
 
     def poses(self, qpos: Array) -> Poses:
         """Return where every body of the scene is, from joint positions `[P, nq]` of the acting one."""
@@ -83,21 +77,4 @@ class Stage:
         """Draw bodies and goals."""
         with self._server.atomic():
             self._view.show(poses)
-            places = moment.goal.reshape(-1, 3) if self._task.family != "hand" else moment.goal[:, :3]
-            self._view.show_goal(places[0], bool(moment.reached.all()))
-            for ball, place in zip(self._balls, places[1:], strict=False):
-                ball.position = place
-
-    def _add_balls(self) -> list[viser.IcosphereHandle]:
-        """Mark all goals but the first, which the scene has, each in the colour of its block."""
-        return [
-            self._server.scene.add_icosphere(
-                f"{self._view.prefix}/goal{number}",
-                radius=GOAL_RADIUS,
-                color=tuple(np.round(255 * self.model.site_rgba[site, :3]).astype(int).tolist()),
-                opacity=GOAL_RGBA[3],
-                cast_shadow=False,
-                receive_shadow=False,
-            )
-            for number, site in enumerate(goal_sites(self.model)[1:], start=1)
-        ]
+            self._view.show_goals(goal_positions(self._task, moment.goal), bool(moment.reached.all()))
