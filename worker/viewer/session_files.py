@@ -16,6 +16,7 @@ from backend.store.runs import get_run
 from backend.store.settings import Settings
 from backend.store.storage import FileStorage
 from backend.store.viewer_sessions import Session
+from sldr_core.episodes import episodes_file
 from sldr_core.errors import SldrError, UnknownName
 
 NEWEST = "newest"
@@ -23,6 +24,9 @@ NEWEST = "newest"
 
 POLICY_FILES = ("policy-newest.pt", "policy-best.pt")
 """What of a run is shown as its newest policy, the first that there is."""
+
+KEPT_POLICY_PREFIX = "policy-epoch-"
+"""What the names of policies begin with that are kept while a run goes on."""
 
 LOCOMOTION_FILE = "locomotion.pt"
 """A locomotion run's model."""
@@ -75,6 +79,11 @@ class RunFiles:
         rows = [(need, {row.name for row in list_files(self.database, need)}) for need in needed]
         return tuple(self.file(need, LOCOMOTION_FILE) for need, names in rows if LOCOMOTION_FILE in names)
 
+    def kept_policies(self, run_id: str) -> tuple[Path, ...]:
+        """Return the policies that were kept while a run was trained, the oldest first."""
+        names = sorted(row.name for row in list_files(self.database, run_id))
+        return tuple(self.file(run_id, name) for name in names if name.startswith(KEPT_POLICY_PREFIX))
+
     def _newest(self, run_id: str) -> Path | None:
         directory = self.settings.run_directory(run_id)
         if self.storage.shared is None:
@@ -103,7 +112,26 @@ def _inspector(files: RunFiles, session: Session) -> Files:
     return {"locomotion": (files.file(session.run_id, LOCOMOTION_FILE),)}
 
 
-FINDERS: dict[str, Callable[[RunFiles, Session], Files]] = {"live": _live, "inspector": _inspector}
+def _episode(files: RunFiles, session: Session) -> Files:
+    return {
+        "episodes": (files.file(session.run_id, episodes_file(session.request["epoch"])),),
+        "locomotion": files.locomotion_models(session.run_id),
+    }
+
+
+def _time_machine(files: RunFiles, session: Session) -> Files:
+    return {
+        "policies": (*files.kept_policies(session.run_id), files.policy(session.run_id)),
+        "locomotion": files.locomotion_models(session.run_id),
+    }
+
+
+FINDERS: dict[str, Callable[[RunFiles, Session], Files]] = {
+    "live": _live,
+    "episode": _episode,
+    "time-machine": _time_machine,
+    "inspector": _inspector,
+}
 """What is brought for each kind of request."""
 
 

@@ -33,7 +33,19 @@ def _inspector(server: viser.ViserServer, job: Job) -> Show:
     return open_inspector(server, job)
 
 
-SHOWS: dict[str, Opener] = {"live": _live, "inspector": _inspector}
+def _episode(server: viser.ViserServer, job: Job) -> Show:
+    from worker.viewer.episode import open_episode
+
+    return open_episode(server, job)
+
+
+def _time_machine(server: viser.ViserServer, job: Job) -> Show:
+    from worker.viewer.time_machine import open_time_machine
+
+    return open_time_machine(server, job)
+
+
+SHOWS: dict[str, Opener] = {"live": _live, "episode": _episode, "time-machine": _time_machine}
 """How each kind of request is shown."""
 
 
