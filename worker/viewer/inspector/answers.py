@@ -120,23 +120,17 @@ def tell_failures(inspection: Inspection) -> Answer:
 
 
 def tell_timeline(inspection: Inspection) -> Answer:
-    """Return what each object did at every step: Q(z, u, g) `[T]`, gaps to the goal `[T+1]`, whether it was met."""
+    """Return the curves of the demonstration, by `group/name`, as other views do: Q(z, u, g) and the gaps to goals."""
     shown, nets, task = inspection.demonstration, inspection.inspected.model.nets, inspection.inspected.task
-    lines = []
-    for part, name in enumerate(_objects(inspection)):
-        goal = shown.start.goal[part]
+    names = _objects(inspection)
+    columns: dict[str, list[float]] = {}
+    for part, name in enumerate(names):
+        goal, of = shown.start.goal[part], f" of {name}" if len(names) > 1 else ""
         value = values_of(nets, shown.state[part, :-1], goal[None], shown.action[part])
+        columns[f"value/Q of what it does{of}"] = value.tolist()
         gaps = scored_gaps(task, goal_offsets(task.goal, shown.achieved[part], goal[None]))
-        lines.append(
-            {
-                "object": name,
-                "value": value.round(DIGITS).tolist(),
-                "gaps": {name: values.tolist() for name, values in gaps.items()},
-                "reached": shown.reached[part].tolist(),
-                "effort": np.linalg.norm(shown.action[part], axis=1).round(DIGITS).tolist(),
-            }
-        )
-    return {"version": inspection.version, "steps": shown.steps, "objects": lines}
+        columns |= {f"{group}/goal{of}": values.tolist() for group, values in gaps.items()}
+    return {"version": inspection.version, "known": shown.steps, "steps": shown.steps, "columns": columns}
 
 
 def tell_slice(landscape: Landscape, version: int) -> Answer:

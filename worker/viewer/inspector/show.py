@@ -121,6 +121,7 @@ class InspectorShow:
             "origin": inspection.origin,
             "exact": inspection.is_exact,
             "timeline": inspection.version,
+            "known": shown.steps,
             "reached": shown.reached[:, -1].all(),
             "looks": vars(self._looks),
             "slice": {
