@@ -587,6 +587,19 @@ export interface components {
             workers_alive: number;
         };
         /**
+         * InspectorView
+         * @description Look at the demonstrations of a locomotion run's model.
+         */
+        InspectorView: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "inspector";
+            /** Run Id */
+            run_id: string;
+        };
+        /**
          * Launch
          * @description A request to train: one run per seed, with the locomotion run they need.
          */
@@ -1289,6 +1302,7 @@ export type Choices = components['schemas']['Choices'];
 export type Draining = components['schemas']['Draining'];
 export type EpisodeView = components['schemas']['EpisodeView'];
 export type Health = components['schemas']['Health'];
+export type InspectorView = components['schemas']['InspectorView'];
 export type Launch = components['schemas']['Launch'];
 export type LaunchPlan = components['schemas']['LaunchPlan'];
 export type LaunchResult = components['schemas']['LaunchResult'];
@@ -2387,7 +2401,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["LiveView"] | components["schemas"]["EpisodeView"] | components["schemas"]["TimeMachineView"];
+                "application/json": components["schemas"]["LiveView"] | components["schemas"]["EpisodeView"] | components["schemas"]["TimeMachineView"] | components["schemas"]["InspectorView"];
             };
         };
         responses: {

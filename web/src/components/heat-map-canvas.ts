@@ -46,7 +46,8 @@ export function drawHeatMap(canvas: HTMLCanvasElement, width: number, height: nu
       pen.fillText(look.format(value), left + wide / 2, top + tall / 2);
     });
   });
-  if (look.mark !== undefined) drawMark(pen, placeOf(look.x, look.mark[0]) * width, height - placeOf(look.y, look.mark[1]) * height);
+  if (look.mark !== undefined)
+    drawMark(pen, placeOf(look.x, look.mark[0]) * width, height - placeOf(look.y, look.mark[1]) * height);
 }
 
 /** Where a value lies along an axis, 0 to 1. */

@@ -1,18 +1,9 @@
 /** Cells in colours, with the same numbers as a table for those who cannot tell the colours. */
 import { useElementSize } from '@mantine/hooks';
 import { type PointerEvent, useEffect, useRef, useState } from 'react';
-import {
-  cellName,
-  css,
-  type HeatAxis,
-  type HeatCells,
-  type Rgb,
-  rangeOf,
-  round,
-  scaleColour,
-} from '@/lib/heat-map';
-import { drawHeatMap } from './heat-map-canvas';
+import { cellName, css, type HeatAxis, type HeatCells, type Rgb, rangeOf, round, scaleColour } from '@/lib/heat-map';
 import classes from './heat-map.module.css';
+import { drawHeatMap } from './heat-map-canvas';
 import { HeatTable } from './heat-table';
 
 export interface HeatMapProps {
@@ -64,7 +55,8 @@ export function HeatMap(props: HeatMapProps) {
         <span className={classes.bar} style={{ background: gradient(scale) }} aria-hidden="true" />
         <span className="number">{format(range[1])}</span>
         <span className={`faint ${classes.told}`}>
-          {at && `${cellName(x, at[0])}, ${cellName(y, at[1])}: ${tell?.(...at) ?? format(cells[at[1]]?.[at[0]] ?? null)}`}
+          {at &&
+            `${cellName(x, at[0])}, ${cellName(y, at[1])}: ${tell?.(...at) ?? format(cells[at[1]]?.[at[0]] ?? null)}`}
         </span>
       </div>
       <HeatTable {...props} />

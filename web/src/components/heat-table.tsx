@@ -1,7 +1,7 @@
 /** The numbers of a heat map. */
 import { cellName } from '@/lib/heat-map';
-import classes from './heat-map.module.css';
 import type { HeatMapProps } from './heat-map';
+import classes from './heat-map.module.css';
 
 export function HeatTable({ description, x, y, cells, format, tableEvery = 1 }: HeatMapProps) {
   const columns = every(x.edges.length - 1, tableEvery);

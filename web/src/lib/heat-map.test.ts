@@ -20,7 +20,12 @@ test('ink is dark on bright colours and white on dark ones', () => {
 });
 
 test('cells without a value do not count for the range', () => {
-  expect(rangeOf([[null, 2], [-1, null]])).toEqual([-1, 2]);
+  expect(
+    rangeOf([
+      [null, 2],
+      [-1, null],
+    ]),
+  ).toEqual([-1, 2]);
   expect(rangeOf([[null]])).toBeUndefined();
 });
 

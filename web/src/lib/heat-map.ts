@@ -23,7 +23,8 @@ export function scaleColour(scale: readonly Rgb[], share: number): Rgb {
   const place = Math.min(1, Math.max(0, share)) * (scale.length - 1);
   const below = Math.min(Math.floor(place), scale.length - 2);
   const [low, high] = [scale[below] ?? [0, 0, 0], scale[below + 1] ?? [0, 0, 0]];
-  const mix = (channel: 0 | 1 | 2): number => Math.round(low[channel] + (place - below) * (high[channel] - low[channel]));
+  const mix = (channel: 0 | 1 | 2): number =>
+    Math.round(low[channel] + (place - below) * (high[channel] - low[channel]));
   return [mix(0), mix(1), mix(2)];
 }
 

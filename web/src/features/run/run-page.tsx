@@ -16,6 +16,7 @@ import { OverviewTab } from './components/overview-tab';
 import classes from './components/run.module.css';
 import { RunHeader } from './components/run-header';
 import { ViewerTab } from './components/viewer-tab';
+import { DemonstrationsTab } from './inspector/demonstrations-tab';
 import { type RunSearch, TABS, type Tab } from './search';
 
 const route = getRouteApi('/runs/$runId');
@@ -23,6 +24,7 @@ const route = getRouteApi('/runs/$runId');
 const TAB_NAMES: Record<Tab, string> = {
   overview: 'Overview',
   '3d': '3D',
+  demonstrations: 'Demonstrations',
   config: 'Config',
   log: 'Log',
   history: 'History',
@@ -62,7 +64,7 @@ function RunTabs({ run }: { run: RunDetail }) {
       keepMounted={false}
     >
       <Tabs.List mb="md" className={classes.tabs} aria-label="About this run">
-        {TABS.map((tab) => (
+        {TABS.filter((tab) => tab !== 'demonstrations' || run.phase === 'locomotion').map((tab) => (
           <Tabs.Tab key={tab} value={tab}>
             {TAB_NAMES[tab]}
           </Tabs.Tab>
@@ -74,6 +76,11 @@ function RunTabs({ run }: { run: RunDetail }) {
       <Tabs.Panel value="3d">
         <ViewerTab key={search.episode} run={run} episode={search.episode} />
       </Tabs.Panel>
+      {run.phase === 'locomotion' && (
+        <Tabs.Panel value="demonstrations">
+          <DemonstrationsTab run={run} />
+        </Tabs.Panel>
+      )}
       <Tabs.Panel value="config">
         <ConfigTab run={run} />
       </Tabs.Panel>

@@ -3,7 +3,7 @@
 import { readEpisode } from './scene-choice';
 
 /** The tabs of the run page. */
-export const TABS = ['overview', '3d', 'config', 'log', 'history', 'files'] as const;
+export const TABS = ['overview', '3d', 'demonstrations', 'config', 'log', 'history', 'files'] as const;
 export type Tab = (typeof TABS)[number];
 
 /** What the charts may be drawn over. */
