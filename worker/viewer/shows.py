@@ -45,7 +45,12 @@ def _time_machine(server: viser.ViserServer, job: Job) -> Show:
     return open_time_machine(server, job)
 
 
-SHOWS: dict[str, Opener] = {"live": _live, "episode": _episode, "time-machine": _time_machine}
+SHOWS: dict[str, Opener] = {
+    "live": _live,
+    "episode": _episode,
+    "time-machine": _time_machine,
+    "inspector": _inspector,
+}
 """How each kind of request is shown."""
 
 
