@@ -17,6 +17,7 @@ import classes from './components/run.module.css';
 import { RunHeader } from './components/run-header';
 import { ViewerTab } from './components/viewer-tab';
 import { EpisodesTab } from './episodes/episodes-tab';
+import { DemonstrationsTab } from './inspector/demonstrations-tab';
 import { type RunSearch, TABS, type Tab } from './search';
 
 const route = getRouteApi('/runs/$runId');
@@ -25,6 +26,7 @@ const TAB_NAMES: Record<Tab, string> = {
   overview: 'Overview',
   '3d': '3D',
   episodes: 'Episodes',
+  demonstrations: 'Demonstrations',
   config: 'Config',
   log: 'Log',
   history: 'History',
@@ -64,7 +66,7 @@ function RunTabs({ run }: { run: RunDetail }) {
       keepMounted={false}
     >
       <Tabs.List mb="md" className={classes.tabs} aria-label="About this run">
-        {TABS.map((tab) => (
+        {TABS.filter((tab) => tab !== 'demonstrations' || run.phase === 'locomotion').map((tab) => (
           <Tabs.Tab key={tab} value={tab}>
             {TAB_NAMES[tab]}
           </Tabs.Tab>
@@ -79,6 +81,11 @@ function RunTabs({ run }: { run: RunDetail }) {
       <Tabs.Panel value="episodes">
         <EpisodesTab run={run} search={search} onShow={show} />
       </Tabs.Panel>
+      {run.phase === 'locomotion' && (
+        <Tabs.Panel value="demonstrations">
+          <DemonstrationsTab run={run} />
+        </Tabs.Panel>
+      )}
       <Tabs.Panel value="config">
         <ConfigTab run={run} />
       </Tabs.Panel>
