@@ -25,7 +25,7 @@ from sqlalchemy import (
     false,
 )
 
-SCHEMA_REVISION = "0002"
+SCHEMA_REVISION = "0007"
 """The migration that these tables correspond to."""
 
 AnyRow = Row[*tuple[Any, ...]]
@@ -232,4 +232,22 @@ viewer_sessions = Table(
     Column("created_at", UtcDateTime, nullable=False),
     Column("touched_at", UtcDateTime, nullable=False),
     Column("ended_at", UtcDateTime),
+)
+
+media_jobs = Table(
+    "media_jobs",
+    metadata,
+    Column("id", String(ID_LENGTH), primary_key=True),
+    Column("run_id", String(ID_LENGTH), ForeignKey("runs.id"), nullable=False, index=True),
+    Column("kind", String(ID_LENGTH), nullable=False),
+    Column("source", String(64), nullable=False),
+    Column("file_name", String(NAME_LENGTH), nullable=False),
+    Column("arguments", JSON, nullable=False),
+    Column("state", String(ID_LENGTH), nullable=False),
+    Column("reason", Text),
+    Column("fence", Integer, nullable=False, server_default="0"),
+    Column("lease_until", UtcDateTime),
+    Column("created_at", UtcDateTime, nullable=False),
+    Column("ended_at", UtcDateTime),
+    Index(None, "state", "created_at"),
 )
