@@ -16,6 +16,8 @@ THUMBNAIL_FILE = "thumbnail.webp"
 """The one small picture of a run; a newer one takes its place."""
 THUMBNAIL_SOURCE = "policy-newest.pt"
 """The file whose policy a thumbnail shows."""
+THUMBNAIL = {"file": THUMBNAIL_SOURCE, "number": 3, "width": 320, "height": 200}
+"""How it is drawn: the end of the policy's episode with this seed, at this size [pixels]."""
 THUMBNAIL_RENEWAL_S = 600.0
 """While a run trains, its thumbnail is drawn again when it is older than this [s]."""
 
@@ -26,7 +28,7 @@ def plan_thumbnail(db: Database) -> MediaJob | None:
         row = conn.execute(_missing_thumbnail(current_time(conn))).one_or_none()
     if row is None:
         return None
-    return order_media(db, MediaOrder(row.run_id, "thumbnail", row.sha256, THUMBNAIL_FILE, {}))
+    return order_media(db, MediaOrder(row.run_id, "thumbnail", row.sha256, THUMBNAIL_FILE, dict(THUMBNAIL)))
 
 
 def _missing_thumbnail(at: datetime) -> Select[Any, Any]:
