@@ -17,7 +17,18 @@ from backend.api.errors import add_error_answers
 from backend.api.hosts import LOCAL, HostRule, OwnHost
 from backend.api.origins import SameOrigin
 from backend.api.pages import BUILT_PAGE, add_pages
-from backend.api.routes import choices, health, launches, queue, run_actions, run_files, runs, viewer_sessions, workers
+from backend.api.routes import (
+    choices,
+    health,
+    launches,
+    media,
+    queue,
+    run_actions,
+    run_files,
+    runs,
+    viewer_sessions,
+    workers,
+)
 from backend.api.tokens import ViewerTokens, load_secret
 from backend.store.database import open_database
 from backend.store.settings import Settings
@@ -55,6 +66,7 @@ def create_app(settings: Settings, page: Path = BUILT_PAGE, hosts: HostRule = LO
         run_actions,
         runs,
         run_files,
+        media,
         queue,
         workers,
         viewer_sessions,

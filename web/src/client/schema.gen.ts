@@ -324,6 +324,50 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/runs/{run_id}/thumbnail": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Run Thumbnail
+         * @description Send the end of an episode of a run's newest policy, as a small picture.
+         */
+        get: operations["get_run_thumbnail"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/runs/{run_id}/videos": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Videos
+         * @description List the videos of a run that were ordered, the newest first.
+         */
+        get: operations["list_videos"];
+        put?: never;
+        /**
+         * Order Video
+         * @description Order a video of an episode; one that is there or on its way is not made again, one that failed is.
+         */
+        post: operations["order_video"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/tasks/{task}/picture": {
         parameters: {
             query?: never;
@@ -1106,6 +1150,98 @@ export interface components {
             success_distance: number | null;
         };
         /**
+         * Video
+         * @description A video: poll it until it is done, then play its url.
+         */
+        Video: {
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /**
+             * Epoch
+             * @description The test whose episode it shows; null: one of the newest policy then.
+             */
+            epoch: number | null;
+            /** Height */
+            height: number;
+            /** Id */
+            id: string;
+            /**
+             * Name
+             * @description Its name among the run's files.
+             */
+            name: string;
+            /**
+             * Number
+             * @description Which episode of the test; without a test, the seed of start and goal.
+             */
+            number: number;
+            /**
+             * Reason
+             * @description Why it failed, in one sentence.
+             */
+            reason: string | null;
+            /** Run Id */
+            run_id: string;
+            /**
+             * State
+             * @enum {string}
+             */
+            state: "queued" | "running" | "done" | "failed";
+            /**
+             * Url
+             * @description Path of the file, below this server, once it is done.
+             */
+            url: string | null;
+            /** Width */
+            width: number;
+        };
+        /**
+         * VideoOrder
+         * @description A request for a video of an episode.
+         */
+        VideoOrder: {
+            /**
+             * Epoch
+             * @description The test whose episode it shows; left out: the newest policy makes one.
+             */
+            epoch?: number | null;
+            /**
+             * Format
+             * @default mp4
+             * @enum {string}
+             */
+            format: "mp4" | "webm";
+            /**
+             * Height
+             * @description [pixels]
+             * @default 480
+             */
+            height: number;
+            /**
+             * Number
+             * @description Which episode of the test; without a test, the seed of start and goal.
+             * @default 0
+             */
+            number: number;
+            /**
+             * Width
+             * @description [pixels]
+             * @default 640
+             */
+            width: number;
+        };
+        /**
+         * Videos
+         * @description The videos of a run, the newest first.
+         */
+        Videos: {
+            /** Videos */
+            videos: components["schemas"]["Video"][];
+        };
+        /**
          * ViewerRequest
          * @description A request to watch the newest policy of a run in 3D.
          */
@@ -1249,6 +1385,9 @@ export type RunPage = components['schemas']['RunPage'];
 export type RunState = components['schemas']['RunState'];
 export type RunSummary = components['schemas']['RunSummary'];
 export type Task = components['schemas']['Task'];
+export type Video = components['schemas']['Video'];
+export type VideoOrder = components['schemas']['VideoOrder'];
+export type Videos = components['schemas']['Videos'];
 export type ViewerRequest = components['schemas']['ViewerRequest'];
 export type ViewerSession = components['schemas']['ViewerSession'];
 export type Worker = components['schemas']['Worker'];
@@ -2195,6 +2334,209 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    get_run_thumbnail: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "image/webp": unknown;
+                };
+            };
+            /** @description There is none yet; the picture of its task stands in for it. */
+            307: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    list_videos: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Videos"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    order_video: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["VideoOrder"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Video"];
                 };
             };
             /** @description Not allowed. */
