@@ -41,6 +41,8 @@ class LoopConfig:
     """Cycles of uniformly random actions collected before the first update."""
     test_episodes: Positive = 380
     """Episodes of each test, with the deterministic actor."""
+    recorded_episodes: Annotated[int, Field(ge=0, le=64)] = 6
+    """The first episodes of each test that are kept to be looked at (0: none); what is learnt does not depend on it."""
     stop_at_success: Share = 1.0
     """End the training early once this test success is held for `stop_after_tests` tests in a row."""
     stop_after_tests: Annotated[int, Field(ge=0)] = 0

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from sldr_core.config import Phase, RewardKind, TaskSpec
 from sldr_core.envs.parts import EnvParts
-from sldr_core.envs.rewards import REWARDS, goal_gaps, is_success
+from sldr_core.envs.rewards import REWARDS, Offsets, goal_gaps, goal_offsets, is_success, object_positions
 from sldr_core.envs.scenes.welds import SUBSTEPS
 from sldr_core.envs.simulation import Array, Ids
 
@@ -108,6 +108,14 @@ class Envs:
     def success(self, achieved: NDArray[np.floating], goal: NDArray[np.floating]) -> NDArray[np.bool_]:
         """Tell which achieved goals `[..., G]` count as success, as `[...]`."""
         return is_success(self.spec.goal, achieved, goal)
+
+    def offsets(self, achieved: NDArray[np.floating], goal: NDArray[np.floating]) -> Offsets:
+        """Return how far achieved goals `[..., G]` are from desired ones, as `[...]`."""
+        return goal_offsets(self.spec.goal, achieved, goal)
+
+    def object_positions(self, achieved: NDArray[np.floating]) -> NDArray[np.floating]:
+        """Return the positions of the objects [m], `[..., O, 3]`, in achieved goals `[..., G]`."""
+        return object_positions(self.spec.goal, achieved)
 
     def gaps(self, goals: NDArray[np.floating], others: NDArray[np.floating]) -> NDArray[np.float64]:
         """Return distances `[..., M, N]` of goals `[..., M, G]` from others `[..., N, G]`, by what the task scores."""

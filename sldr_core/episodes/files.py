@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import io
 import json
+import math
+import re
 import zlib
 from collections.abc import Mapping
 from dataclasses import asdict
@@ -45,6 +47,8 @@ LAYOUT: dict[str, tuple[DTypeLike, tuple[str, ...]]] = {
 }
 """Type and axes of every array of an episode; in the file one axis over the episodes comes before them."""
 
+_NAME = re.compile(r"episodes-epoch-(\d{4,})\.npz")
+
 _UNREADABLE = (
     BadZipFile,
     EOFError,
@@ -63,6 +67,18 @@ _UNREADABLE = (
 def episodes_file(epoch: int) -> str:
     """Return the name of the file of the test after `epoch`."""
     return f"episodes-epoch-{epoch:04d}.npz"
+
+
+def epoch_of(name: str) -> int | None:
+    """Return the epoch that a file of this name is of, or None if it is no file of episodes."""
+    found = _NAME.fullmatch(name)
+    return int(found[1]) if found else None
+
+
+def episode_bytes(sizes: Mapping[str, int]) -> int:
+    """Return what the arrays of one episode take before they are packed [bytes], from the sizes of all axes but T+1."""
+    known = {**sizes, "T+1": sizes["T"] + 1}
+    return sum(np.dtype(kind).itemsize * math.prod(known[axis] for axis in axes) for kind, axes in LAYOUT.values())
 
 
 def write_episodes(path: Path, test: RecordedTest) -> None:

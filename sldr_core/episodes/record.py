@@ -43,15 +43,13 @@ class Origin:
 
 
 @dataclass(frozen=True)
-class RecordedEpisode:
-    """One whole episode of the deterministic policy. Transition `t` leads from moment `t` to moment `t + 1`."""
+class Course:
+    """The course of one whole episode. Transition `t` leads from moment `t` to moment `t + 1`."""
 
     index: int
     """Number of the episode in its test, from 0."""
     tag: Tag
     """What went wrong, or `success`."""
-    resimulates: bool
-    """Whether start and actions alone gave the same states again, to the last bit, right after it was recorded."""
     start_state: Doubles
     """Everything to simulate on from, `[K]`: a row of `Simulation.snapshot()` before the first step."""
     rng_state: Mapping[str, Any]
@@ -68,14 +66,6 @@ class RecordedEpisode:
     """Achieved goals, `[T+1, G]`."""
     action: Floats
     """Actions of the one who acts, `[T, A]`."""
-    reward: Floats
-    """Reward of each stream under the original goal, `[T, S]`."""
-    value: Floats
-    """Q of each stream's critic for the observation, the goal and the action, `[T, S]`."""
-    wanted: Floats
-    """u = nu(z, g), what each part wanted to do, `[T, P, U]`."""
-    induced: Floats
-    """w = I(z, z'), what the robot made it do, `[T, P, U]`."""
     contact: Flags
     """Whether the robot touches each object, `[T+1, O]`."""
     distance: Doubles
@@ -89,6 +79,22 @@ class RecordedEpisode:
     def length(self) -> int:
         """Steps of the episode, `T`."""
         return len(self.action)
+
+
+@dataclass(frozen=True)
+class RecordedEpisode(Course):
+    """The course of an episode of the deterministic policy, with what the training's streams and critics say of it."""
+
+    resimulates: bool
+    """Whether start and actions alone gave the same states again, to the last bit, right after it was recorded."""
+    reward: Floats
+    """Reward of each stream under the original goal, `[T, S]`."""
+    value: Floats
+    """Q of each stream's critic for the observation, the goal and the action, `[T, S]`."""
+    wanted: Floats
+    """u = nu(z, g), what each part wanted to do, `[T, P, U]`."""
+    induced: Floats
+    """w = I(z, z'), what the robot made it do, `[T, P, U]`."""
 
 
 @dataclass(frozen=True)

@@ -67,8 +67,8 @@ def tag_episodes(
 
 
 def tag_shares(tags: Sequence[Tag]) -> dict[Tag, float]:
-    """Return the share of each tag among at least one episode; they add up to 1."""
-    return {tag: tags.count(tag) / len(tags) for tag in TAGS}
+    """Return the share of each tag, which add up to 1; nothing of no episodes."""
+    return {tag: tags.count(tag) / len(tags) for tag in TAGS} if tags else {}
 
 
 def _has_moved(position: NDArray[np.floating]) -> NDArray[np.bool_]:

@@ -9,6 +9,7 @@ import numpy as np
 import torch
 
 from sldr_core.config import TrainConfig
+from sldr_core.episodes import MOST_FILES, episodes_file
 
 METRICS_FILE = "metrics.jsonl"
 REPLAY_FILE = "replay.bin"
@@ -29,17 +30,25 @@ ADAM_COPIES = 3
 
 
 def planned_sizes(
-    config: TrainConfig, replay_bytes: int, envs: Mapping[str, Any], learners: Sequence[Mapping[str, Any]]
+    config: TrainConfig,
+    replay_bytes: int,
+    episode_bytes: int,
+    envs: Mapping[str, Any],
+    learners: Sequence[Mapping[str, Any]],
 ) -> dict[str, int]:
     """Return how large a run's files become at most [bytes], by name.
 
     Args:
         config: what is trained.
         replay_bytes: size of the replay file [bytes].
+        episode_bytes: size of one recorded episode [bytes].
         envs: state of the environments.
         learners: states of everything that learns, before its first update.
     """
     weights = sum(_bytes_in(learner) for learner in learners)
+    recorded = min(config.loop.recorded_episodes, config.loop.test_episodes)
+    # Beside those that are spread over the training stay those of the best and the newest test.
+    tests = range(1, min(config.loop.epochs, MOST_FILES + 2) + 1) if recorded else ()
     checkpoint = ADAM_COPIES * weights + 2 * _bytes_in(envs)
     return {
         REPLAY_FILE: replay_bytes,
@@ -49,6 +58,7 @@ def planned_sizes(
         NEWEST_POLICY_FILE: weights,
         BEST_POLICY_FILE: weights,
         **({LOCOMOTION_FILE: weights} if config.phase == "locomotion" else {}),
+        **{episodes_file(epoch): recorded * episode_bytes for epoch in tests},
         METRICS_FILE: METRICS_LINE * config.total_cycles,
     }
 

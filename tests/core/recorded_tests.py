@@ -50,7 +50,7 @@ def made_episode(index: int = 0, **changes: Any) -> RecordedEpisode:
 
 
 def made_test(
-    *episodes: RecordedEpisode, epoch: int = 12, streams: tuple[str, ...] = ("task", "sldr/object")
+    *episodes: RecordedEpisode, epoch: int = 12, streams: tuple[str, ...] = ("task", "sldr/object0")
 ) -> RecordedTest:
     """Return a test with these episodes, or with two made ones."""
     config = make_config("FetchPush", "manipulation", "her-sldr", 0, "smoke")
@@ -60,7 +60,7 @@ def made_test(
         epoch=epoch,
         env_steps=100 * epoch,
         streams=streams,
-        parts=("object",),
+        parts=("object0",),
         objects=("object0",),
     )
     return RecordedTest(origin, episodes or (made_episode(0), made_episode(1)))
