@@ -13,8 +13,10 @@ import { FilesTab } from './components/files-tab';
 import { HistoryTab } from './components/history-tab';
 import { LogTab } from './components/log-tab';
 import { OverviewTab } from './components/overview-tab';
+import { RerunTab } from './components/rerun-tab';
 import classes from './components/run.module.css';
 import { RunHeader } from './components/run-header';
+import { VideosTab } from './components/videos-tab';
 import { ViewerTab } from './components/viewer-tab';
 import { type RunSearch, TABS, type Tab } from './search';
 
@@ -23,6 +25,8 @@ const route = getRouteApi('/runs/$runId');
 const TAB_NAMES: Record<Tab, string> = {
   overview: 'Overview',
   '3d': '3D',
+  rerun: 'Rerun',
+  videos: 'Videos',
   config: 'Config',
   log: 'Log',
   history: 'History',
@@ -73,6 +77,12 @@ function RunTabs({ run }: { run: RunDetail }) {
       </Tabs.Panel>
       <Tabs.Panel value="3d">
         <ViewerTab run={run} />
+      </Tabs.Panel>
+      <Tabs.Panel value="rerun">
+        <RerunTab run={run} />
+      </Tabs.Panel>
+      <Tabs.Panel value="videos">
+        <VideosTab run={run} />
       </Tabs.Panel>
       <Tabs.Panel value="config">
         <ConfigTab run={run} />

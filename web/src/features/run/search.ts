@@ -1,7 +1,7 @@
 /** What the run page shows, as it stands in the address. */
 
 /** The tabs of the run page. */
-export const TABS = ['overview', '3d', 'config', 'log', 'history', 'files'] as const;
+export const TABS = ['overview', '3d', 'rerun', 'videos', 'config', 'log', 'history', 'files'] as const;
 export type Tab = (typeof TABS)[number];
 
 /** What the charts may be drawn over. */

@@ -2,6 +2,7 @@
 import type { RunSummary } from '@/client/schema.gen';
 import { AnchorLink } from '@/components/anchor-link';
 import { RunProgress } from '@/components/run-progress';
+import { RunThumbnail } from '@/components/run-thumbnail';
 import { StateBadge } from '@/components/state-badge';
 import { formatDuration } from '@/lib/format';
 import { runTitle } from '@/lib/run-title';
@@ -24,6 +25,7 @@ export function RunCards({ runs, selection }: { runs: readonly RunSummary[]; sel
         >
           <div className={classes.cardHead}>
             <SelectBox run={run} selection={selection} />
+            <RunThumbnail runId={run.id} version={run.state} />
             <AnchorLink to="/runs/$runId" params={{ runId: run.id }} fw={600} aria-label={runTitle(run)}>
               {run.task}
             </AnchorLink>

@@ -4,6 +4,7 @@ import type { MouseEvent } from 'react';
 import type { RunSummary } from '@/client/schema.gen';
 import { AnchorLink } from '@/components/anchor-link';
 import { RunProgress } from '@/components/run-progress';
+import { RunThumbnail } from '@/components/run-thumbnail';
 import { StateBadge } from '@/components/state-badge';
 import { formatDuration, NOTHING } from '@/lib/format';
 import { runTitle } from '@/lib/run-title';
@@ -145,6 +146,7 @@ function RunRows({ run, runs, selection }: RowProps) {
           <StateBadge state={run.state} wish={wishOf(run)} />
         </td>
         <th scope="row">
+          <RunThumbnail runId={run.id} version={run.state} />{' '}
           <AnchorLink to="/runs/$runId" params={{ runId: run.id }} fw={600} fz={13} aria-label={runTitle(run)}>
             {run.task}
           </AnchorLink>
