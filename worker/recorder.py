@@ -5,7 +5,8 @@ from __future__ import annotations
 import logging
 import math
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
+from functools import partial
 from pathlib import Path
 
 from backend.store.claims import Claim
@@ -17,6 +18,8 @@ from backend.store.progress import Progress, find_progress
 from backend.store.settings import Settings
 from backend.store.storage import FileStorage
 from sldr_core.disk import write_atomically
+from sldr_core.episodes import KIND as EPISODES_KIND
+from sldr_core.episodes import RecordedTest, episodes_file, remove_episodes, write_episodes
 from sldr_core.errors import TrainingDiverged
 from sldr_core.records import Step
 from worker.file_keeper import FileKeeper
@@ -101,6 +104,18 @@ class StoreRecorder:
             self._keeper.keep(name, kind, path)
         self._writer.check()
         return path
+
+    def record_episodes(self, test: RecordedTest, kept_epochs: Collection[int]) -> None:
+        """Keep the episodes of a test, list them in the store, and drop those of earlier tests that are not to stay.
+
+        Raises:
+            StaleFence: the run was given to another worker.
+            StoreUnavailable: store or shared place could not be used for minutes.
+        """
+        newest = test.origin.epoch
+        self.save_file(episodes_file(newest), EPISODES_KIND, partial(write_episodes, test=test))
+        self._keeper.keep_episodes(test, kept_epochs)
+        remove_episodes(self._directory, newest, kept_epochs)
 
     def stop_requested(self) -> StopWord | None:
         """Return what the supervisor asked for, if anything; who asks often shows that the training goes on.

@@ -19,6 +19,7 @@ from backend.api.origins import SameOrigin
 from backend.api.pages import BUILT_PAGE, add_pages
 from backend.api.routes import (
     choices,
+    episodes,
     health,
     launches,
     media,
@@ -66,6 +67,7 @@ def create_app(settings: Settings, page: Path = BUILT_PAGE, hosts: HostRule = LO
         run_actions,
         runs,
         run_files,
+        episodes,
         media,
         queue,
         workers,

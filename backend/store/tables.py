@@ -193,6 +193,23 @@ run_files = Table(
     Column("created_at", UtcDateTime, nullable=False),
 )
 
+episodes = Table(
+    "episodes",
+    metadata,
+    Column("run_id", String(ID_LENGTH), ForeignKey("runs.id"), primary_key=True),
+    Column("epoch", Integer, primary_key=True, autoincrement=False),
+    Column("number", Integer, primary_key=True, autoincrement=False),
+    Column("attempt", Integer, nullable=False),
+    Column("file", String(NAME_LENGTH), nullable=False),
+    Column("success", Boolean, nullable=False),
+    Column("tag", String(ID_LENGTH), nullable=False),
+    Column("task_return", Float, nullable=False),
+    Column("worst_q", Float),
+    Column("worst_q_step", Integer),
+    Column("length", Integer, nullable=False),
+    Column("resimulates", Boolean, nullable=False),
+)
+
 workers = Table(
     "workers",
     metadata,

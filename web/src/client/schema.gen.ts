@@ -204,6 +204,46 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/runs/{run_id}/episodes": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Run Episodes
+         * @description List the recorded episodes of a run's tests.
+         */
+        get: operations["list_run_episodes"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/runs/{run_id}/episodes/{epoch}/{index}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Run Episode
+         * @description Return what happened in one recorded episode, and what the streams and critics said of it.
+         */
+        get: operations["get_run_episode"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/runs/{run_id}/events": {
         parameters: {
             query?: never;
@@ -595,6 +635,145 @@ export interface components {
         Draining: {
             /** Draining */
             draining: boolean;
+        };
+        /**
+         * Episode
+         * @description One recorded episode of a test.
+         */
+        Episode: {
+            /** Attempt */
+            attempt: number;
+            /**
+             * Epoch
+             * @description Epochs trained when the test was held.
+             */
+            epoch: number;
+            /**
+             * File
+             * @description The run's file that holds it.
+             */
+            file: string;
+            /**
+             * Index
+             * @description Its number in the test, from 0.
+             */
+            index: number;
+            /**
+             * Length
+             * @description Control steps.
+             */
+            length: number;
+            /**
+             * Resimulates
+             * @description Whether start and actions alone gave the same states again, bit for bit.
+             */
+            resimulates: boolean;
+            /**
+             * Success
+             * @description Whether the goal is reached at the last step.
+             */
+            success: boolean;
+            /**
+             * Tag
+             * @description `success`, or what went wrong.
+             * @enum {string}
+             */
+            tag: "success" | "never_touched" | "dropped" | "overshot" | "too_slow" | "other";
+            /**
+             * Task Return
+             * @description Sum of the task's rewards.
+             */
+            task_return: number;
+            /**
+             * Worst Q
+             * @description Least SLDR reward of any part; null without SLDR.
+             */
+            worst_q: number | null;
+            /**
+             * Worst Q Step
+             * @description The step it was given for, from 0.
+             */
+            worst_q_step: number | null;
+        };
+        /**
+         * EpisodeList
+         * @description A piece of a run's list of recorded episodes.
+         */
+        EpisodeList: {
+            /** Episodes */
+            episodes: components["schemas"]["Episode"][];
+            /**
+             * Epochs
+             * @description Epochs with recorded episodes, whatever the filter.
+             */
+            epochs: number[];
+            /**
+             * Total
+             * @description Episodes that the filter lets through.
+             */
+            total: number;
+        };
+        /**
+         * EpisodeTimelines
+         * @description What happened in an episode, in columns: of length + 1 moments, and of the length steps between them.
+         */
+        EpisodeTimelines: {
+            /**
+             * Angle
+             * @description Angle from the goal [rad], by moment; null without a rotation.
+             */
+            angle: (number | null)[] | null;
+            /**
+             * Contact
+             * @description Whether the robot touches each object, by moment.
+             */
+            contact: {
+                [key: string]: boolean[];
+            };
+            /**
+             * Distance
+             * @description Largest distance of an object from its goal [m], by moment.
+             */
+            distance: (number | null)[];
+            /**
+             * Env Steps
+             * @description Control steps of training episodes when the test was held.
+             */
+            env_steps: number;
+            episode: components["schemas"]["Episode"];
+            /**
+             * Induced
+             * @description Action that each part was made to do, by step.
+             */
+            induced: {
+                [key: string]: (number | null)[][];
+            };
+            /**
+             * Rewards
+             * @description Reward of each stream, by step.
+             */
+            rewards: {
+                [key: string]: (number | null)[];
+            };
+            /**
+             * Success
+             * @description Whether the goal is reached, by moment.
+             */
+            success: boolean[];
+            /**
+             * Values
+             * @description Q of each stream's critic, by step.
+             */
+            values: {
+                [key: string]: (number | null)[];
+            };
+            /**
+             * Wanted
+             * @description Action that each part wanted, by step.
+             */
+            wanted: {
+                [key: string]: (number | null)[][];
+            };
         };
         /**
          * Health
@@ -1359,6 +1538,9 @@ export type Attempt = components['schemas']['Attempt'];
 export type Attempts = components['schemas']['Attempts'];
 export type Choices = components['schemas']['Choices'];
 export type Draining = components['schemas']['Draining'];
+export type Episode = components['schemas']['Episode'];
+export type EpisodeList = components['schemas']['EpisodeList'];
+export type EpisodeTimelines = components['schemas']['EpisodeTimelines'];
 export type Health = components['schemas']['Health'];
 export type Launch = components['schemas']['Launch'];
 export type LaunchPlan = components['schemas']['LaunchPlan'];
@@ -1957,6 +2139,135 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Attempts"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    list_run_episodes: {
+        parameters: {
+            query?: {
+                /** @description Only episodes that ended so. */
+                tag?: ("success" | "never_touched" | "dropped" | "overshot" | "too_slow" | "other") | null;
+                /** @description Only those of this test. */
+                epoch?: number | null;
+                /** @description Equal ones stand newest test first. */
+                sort?: "epoch" | "return" | "success" | "worst_q";
+                descending?: boolean;
+                limit?: number;
+                /** @description Rows to leave out. */
+                offset?: number;
+            };
+            header?: never;
+            path: {
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["EpisodeList"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    get_run_episode: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run_id: string;
+                epoch: number;
+                index: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["EpisodeTimelines"];
                 };
             };
             /** @description It does not exist. */
