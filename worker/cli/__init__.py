@@ -18,6 +18,7 @@ COMMANDS = {
     "train": "Train here and now, without page and queue.",
     "evaluate": "Measure the success of a trained policy.",
     "render": "Draw the picture of a task.",
+    "export": "Write what the store has of runs for other tools, such as Rerun.",
     "backup": "Copy all runs and their files to one place, while everything runs.",
     "restore": "Bring back what backup has copied.",
     "list": "List tasks, methods or presets.",
