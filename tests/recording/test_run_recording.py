@@ -27,7 +27,7 @@ from worker.cli.commands.export import main
 from worker.recording.blueprint import chart_groups
 from worker.recording.log_lines import place_lines
 from worker.recording.run_recording import choose_tests
-from worker.recording.scenes import PULL, make_scene
+from worker.recording.scenes import PULL, load_scene, make_scene
 
 STEPS = 3
 
@@ -111,7 +111,7 @@ def test_the_command_writes_curves_episodes_and_log(
 )
 def test_a_scene_has_bodies_goals_and_what_each_part_wanted(task: str, goals: int, arrows: int) -> None:
     origin, episode = sldr_episode(task)
-    scene = make_scene(origin, episode)
+    scene = make_scene(load_scene(origin), origin, episode)
     table = next(body for body in scene.bodies if body.name == "table0")
     moving = next(body for body in scene.bodies if body.name == "object0")
     assert (len(table.position), len(moving.position)) == (1, STEPS + 1)
@@ -127,7 +127,8 @@ def test_a_scene_has_bodies_goals_and_what_each_part_wanted(task: str, goals: in
 
 
 def test_a_hand_s_target_is_a_body_of_its_scene() -> None:
-    scene = make_scene(*sldr_episode("HandBlockFull"))
+    origin, episode = sldr_episode("HandBlockFull")
+    scene = make_scene(load_scene(origin), origin, episode)
     assert {"object", "target"} <= {body.name for body in scene.bodies}
     assert len(scene.goals) == 0
     assert any(form.solid == "capsule" for body in scene.bodies for form in body.forms)

@@ -58,13 +58,15 @@ def choose_tests(rows: Sequence[FileRow]) -> list[tuple[FileRow, int]]:
 
 def _make_scenes(storage: FileStorage, rows: Sequence[FileRow]) -> list[EpisodeScene]:
     """Work out a few recorded episodes; one that cannot be read is left out, and the log says so."""
-    from worker.recording.scenes import make_scene  # Brings MuJoCo, which curves do without.
+    from worker.recording.scenes import load_scene, make_scene  # Brings MuJoCo, which curves do without.
 
     scenes: list[EpisodeScene] = []
+    model = None
     for row, most in choose_tests(rows):
         try:
             test = read_episodes(storage.bring(row))
-            scenes += [make_scene(test.origin, episode) for episode in test.episodes[:most]]
+            model = model or load_scene(test.origin)
+            scenes += [make_scene(model, test.origin, episode) for episode in test.episodes[:most]]
         except (SldrError, FilesUnavailable) as err:
             log.warning("The recording is without %s: %s", row.name, err)
     return scenes

@@ -42,18 +42,28 @@ _OBJECT_RGBA = (0.25, 0.3, 0.36, 1.0)
 _TARGET_RGBA = (0.86, 0.03, 0.03, 0.45)
 
 
+def load_scene(origin: Origin) -> mujoco.MjModel:
+    """Build the model that a training's episodes were simulated in."""
+    config = config_from_dict(dict(origin.config))
+    scene = config.scene
+    return make_envs(config.task, config.phase, robot=scene.locomotion_robot, variant=scene.variant).model
+
+
 def make_scene(
-    origin: Origin, episode: RecordedEpisode, demonstrations: Mapping[str, NDArray[np.float64]] | None = None
+    model: mujoco.MjModel,
+    origin: Origin,
+    episode: RecordedEpisode,
+    demonstrations: Mapping[str, NDArray[np.float64]] | None = None,
 ) -> EpisodeScene:
     """Work out one episode.
 
     Args:
+        model: the model it was simulated in.
         origin: the training that it was recorded in.
         episode: the episode.
         demonstrations: ways `[*, 3]` that objects would have taken by themselves, by object; None where unknown.
     """
     config = config_from_dict(dict(origin.config))
-    model = _model(config)
     pos, quat = _poses(model, episode.qpos)
     objects = {model.body(body).name: pos[:, body] for body in range(model.nbody) if _is_object(model, body)}
     name = f"epoch-{origin.epoch:04d}/{episode.index}"
@@ -71,11 +81,6 @@ def make_scene(
         series=_series(origin, episode),
         eye=Eye(_three(camera.position), camera.look_at),
     )
-
-
-def _model(config: TrainConfig) -> mujoco.MjModel:
-    scene = config.scene
-    return make_envs(config.task, config.phase, robot=scene.locomotion_robot, variant=scene.variant).model
 
 
 def _poses(model: mujoco.MjModel, qpos: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
