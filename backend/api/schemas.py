@@ -221,12 +221,6 @@ class RunFiles(Strict):
     files: list[RunFile]
 
 
-class ViewerRequest(Strict):
-    """A request to watch the newest policy of a run in 3D."""
-
-    run_id: str
-
-
 class ViewerSession(Strict):
     """A 3D session: poll it until it is ready, then open its url."""
 

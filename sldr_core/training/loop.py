@@ -25,7 +25,14 @@ from sldr_core.training.checkpoint import (
 from sldr_core.training.cycle import collect, collect_random, learn
 from sldr_core.training.directory import alone_in
 from sldr_core.training.dump import keep_evidence
-from sldr_core.training.files import BEST_POLICY_FILE, CHECKPOINT_FILE, LOCOMOTION_FILE, NEWEST_POLICY_FILE
+from sldr_core.training.files import (
+    BEST_POLICY_FILE,
+    CHECKPOINT_FILE,
+    LOCOMOTION_FILE,
+    NEWEST_POLICY_FILE,
+    keeps_policy,
+    kept_policy_file,
+)
 from sldr_core.training.finite import NonFinite, check_metrics, check_weights
 from sldr_core.training.policy import write_policy
 from sldr_core.training.recorder import Recorder, StopReason
@@ -154,9 +161,12 @@ class _Loop:
         counters.tests_held = counters.tests_held + 1 if rate >= self._loop.stop_at_success else 0
         write = partial(write_policy, parts=self._parts, counters=counters)
         self._recorder.save_file(NEWEST_POLICY_FILE, "policy", write)
+        epoch = self._step().epoch
+        if keeps_policy(epoch, self._loop.epochs):
+            self._recorder.save_file(kept_policy_file(epoch), "policy", write)
         if rate >= counters.best_success_rate:
             counters.best_success_rate = rate
-            counters.best_epoch = self._step().epoch
+            counters.best_epoch = epoch
             self._recorder.save_file(BEST_POLICY_FILE, "policy", write)
             if self._parts.inverse is not None:
                 model = _locomotion_model(self._parts, Measured(rate, result.episodes))

@@ -17,6 +17,7 @@ COMMANDS = {
     "viewer": "Serve 3D views of policies to the page.",
     "train": "Train here and now, without page and queue.",
     "evaluate": "Measure the success of a trained policy.",
+    "replay": "Simulate recorded episodes again and compare every bit.",
     "render": "Draw the picture of a task.",
     "export": "Write what the store has of runs for other tools, such as Rerun.",
     "backup": "Copy all runs and their files to one place, while everything runs.",

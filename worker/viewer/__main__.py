@@ -16,7 +16,7 @@ from backend.store.errors import StoreUnavailable
 from backend.store.settings import Settings, load_settings
 from sldr_core.errors import SldrError
 from worker.media.host import MediaHost
-from worker.viewer.host import Host
+from worker.viewer.host import Host, keep_warm
 from worker.viewer.process import serve_session
 
 POLL_S = 0.2
@@ -54,6 +54,7 @@ def host_sessions(settings: Settings) -> None:
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda *_: stop.set())
     database = open_database(settings)
+    keep_warm()
     host = Host(database, settings, target=serve_session)
     host.begin()
     media = MediaHost(database, settings)
@@ -86,10 +87,11 @@ def _draw_pictures(home: Path) -> subprocess.Popen[bytes]:
 
 
 def _show_one(policy: Path, port: int) -> None:
-    from worker.viewer.session import Session, watch
+    from worker.viewer.reports import Job
+    from worker.viewer.session import open_session, watch
 
-    session = Session(policy, port)
-    print(f"{session.message} http://127.0.0.1:{session.port}/", flush=True)
+    session = open_session(Job("alone", {"kind": "live"}, {"policy": (policy,)}), port)
+    print(f"{session.show.message} http://127.0.0.1:{session.port}/", flush=True)
     watch(session)
 
 

@@ -439,7 +439,7 @@ export interface paths {
         put?: never;
         /**
          * Create Viewer Session
-         * @description Ask the viewer host to show the newest policy of a run.
+         * @description Ask the viewer host to show something of a run: see the kinds of views.
          */
         post: operations["create_viewer_session"];
         delete?: never;
@@ -776,6 +776,23 @@ export interface components {
             };
         };
         /**
+         * EpisodeView
+         * @description Watch an episode that was recorded in a test.
+         */
+        EpisodeView: {
+            /** Epoch */
+            epoch: number;
+            /** Index */
+            index: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "episode";
+            /** Run Id */
+            run_id: string;
+        };
+        /**
          * Health
          * @description Whether the service can do its work.
          */
@@ -834,6 +851,34 @@ export interface components {
         LaunchResult: {
             /** Runs */
             runs: components["schemas"]["RunSummary"][];
+        };
+        /**
+         * LiveView
+         * @description Watch a policy act, toward random goals or goals that are dragged.
+         */
+        LiveView: {
+            /** @description A second policy of the same task and phase, beside the first, from the same start. */
+            beside?: components["schemas"]["PolicyChoice"] | null;
+            /**
+             * Episodes
+             * @description Episodes side by side.
+             * @default 1
+             * @enum {integer}
+             */
+            episodes: 1 | 4 | 9;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "live";
+            /**
+             * Policy
+             * @description `newest` follows the training; else the name of a file of the run.
+             * @default newest
+             */
+            policy: string;
+            /** Run Id */
+            run_id: string;
         };
         /**
          * LogTail
@@ -935,6 +980,20 @@ export interface components {
             seed: number;
             /** Task */
             task: string;
+        };
+        /**
+         * PolicyChoice
+         * @description A policy of another run, or another policy of the same.
+         */
+        PolicyChoice: {
+            /**
+             * Policy
+             * @description `newest` follows the training; else the name of a file of the run.
+             * @default newest
+             */
+            policy: string;
+            /** Run Id */
+            run_id: string;
         };
         /**
          * PresetSummary
@@ -1329,6 +1388,19 @@ export interface components {
             success_distance: number | null;
         };
         /**
+         * TimeMachineView
+         * @description Watch the episode from one start toward one goal under every policy that was kept while training.
+         */
+        TimeMachineView: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "time-machine";
+            /** Run Id */
+            run_id: string;
+        };
+        /**
          * Video
          * @description A video: poll it until it is done, then play its url.
          */
@@ -1419,14 +1491,6 @@ export interface components {
         Videos: {
             /** Videos */
             videos: components["schemas"]["Video"][];
-        };
-        /**
-         * ViewerRequest
-         * @description A request to watch the newest policy of a run in 3D.
-         */
-        ViewerRequest: {
-            /** Run Id */
-            run_id: string;
         };
         /**
          * ViewerSession
@@ -1541,15 +1605,18 @@ export type Draining = components['schemas']['Draining'];
 export type Episode = components['schemas']['Episode'];
 export type EpisodeList = components['schemas']['EpisodeList'];
 export type EpisodeTimelines = components['schemas']['EpisodeTimelines'];
+export type EpisodeView = components['schemas']['EpisodeView'];
 export type Health = components['schemas']['Health'];
 export type Launch = components['schemas']['Launch'];
 export type LaunchPlan = components['schemas']['LaunchPlan'];
 export type LaunchResult = components['schemas']['LaunchResult'];
+export type LiveView = components['schemas']['LiveView'];
 export type LogTail = components['schemas']['LogTail'];
 export type Method = components['schemas']['Method'];
 export type MetricBatch = components['schemas']['MetricBatch'];
 export type Move = components['schemas']['Move'];
 export type PlannedRun = components['schemas']['PlannedRun'];
+export type PolicyChoice = components['schemas']['PolicyChoice'];
 export type PresetSummary = components['schemas']['PresetSummary'];
 export type PriorityChange = components['schemas']['PriorityChange'];
 export type Problem = components['schemas']['Problem'];
@@ -1567,10 +1634,10 @@ export type RunPage = components['schemas']['RunPage'];
 export type RunState = components['schemas']['RunState'];
 export type RunSummary = components['schemas']['RunSummary'];
 export type Task = components['schemas']['Task'];
+export type TimeMachineView = components['schemas']['TimeMachineView'];
 export type Video = components['schemas']['Video'];
 export type VideoOrder = components['schemas']['VideoOrder'];
 export type Videos = components['schemas']['Videos'];
-export type ViewerRequest = components['schemas']['ViewerRequest'];
 export type ViewerSession = components['schemas']['ViewerSession'];
 export type Worker = components['schemas']['Worker'];
 export type WorkerRun = components['schemas']['WorkerRun'];
@@ -2973,7 +3040,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["ViewerRequest"];
+                "application/json": components["schemas"]["LiveView"] | components["schemas"]["EpisodeView"] | components["schemas"]["TimeMachineView"];
             };
         };
         responses: {

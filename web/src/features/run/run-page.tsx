@@ -76,7 +76,7 @@ function RunTabs({ run }: { run: RunDetail }) {
         <OverviewTab run={run} search={search} onShow={show} />
       </Tabs.Panel>
       <Tabs.Panel value="3d">
-        <ViewerTab run={run} />
+        <ViewerTab key={search.episode} run={run} episode={search.episode} />
       </Tabs.Panel>
       <Tabs.Panel value="rerun">
         <RerunTab run={run} />

@@ -1,5 +1,7 @@
 /** What the run page shows, as it stands in the address. */
 
+import { readEpisode } from './scene-choice';
+
 /** The tabs of the run page. */
 export const TABS = ['overview', '3d', 'rerun', 'videos', 'config', 'log', 'history', 'files'] as const;
 export type Tab = (typeof TABS)[number];
@@ -15,6 +17,8 @@ export interface RunSearch {
   readonly tab?: Tab;
   readonly x?: Axis;
   readonly smooth?: number;
+  /** The recorded episode that the 3D tab shows: `epoch.index`. */
+  readonly episode?: string;
 }
 
 /** Read the run page's view from an address; what makes no sense is left out. */
@@ -23,6 +27,7 @@ export function readRunSearch(raw: Record<string, unknown>): RunSearch {
   return {
     tab: TABS.find((tab) => tab === raw.tab),
     x: AXES.find((axis) => axis === raw.x),
+    episode: readEpisode(String(raw.episode)) && String(raw.episode),
     smooth: raw.smooth !== undefined && smooth >= 0 && smooth <= MOST_SMOOTHING ? smooth : undefined,
   };
 }

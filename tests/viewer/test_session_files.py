@@ -13,8 +13,10 @@ from backend.store.launches import LaunchOrder, launch
 from backend.store.queue import claim
 from backend.store.settings import Settings
 from backend.store.storage import FileStorage
+from backend.store.viewer_sessions import request_session
+from sldr_core.errors import UnknownName
 from worker.file_keeper import FileKeeper
-from worker.viewer.newest_policy import NewestPolicies
+from worker.viewer.session_files import NothingToShow, RunFiles, find_session_files
 
 
 @pytest.fixture
@@ -37,8 +39,13 @@ def keep(db: Database, settings: Settings, held: Claim, content: bytes, name: st
     FileKeeper(db, FileStorage(settings), held).keep(name, "policy", path)
 
 
+def run_files(db: Database, settings: Settings) -> RunFiles:
+    return RunFiles(db, settings, FileStorage(settings))
+
+
 def test_without_a_policy_there_is_nothing_to_follow(db: Database, here: Settings, held: Claim) -> None:
-    assert NewestPolicies(db, here).find(held.run_id) is None
+    with pytest.raises(NothingToShow, match="wait for its first test"):
+        run_files(db, here).policy(held.run_id)
 
 
 def test_the_policy_of_another_machine_is_renewed_in_place(
@@ -46,13 +53,12 @@ def test_the_policy_of_another_machine_is_renewed_in_place(
 ) -> None:
     there = replace(here, home=tmp_path / "there")
     keep(db, there, held, b"first")
-    policies = NewestPolicies(db, here)
-    path = policies.find(held.run_id)
-    assert path is not None
+    session = request_session(db, held.run_id)
+    [path] = find_session_files(run_files(db, here), session)["policy"]
     assert path.read_bytes() == b"first"
 
     keep(db, there, held, b"second")
-    policies.renew(held.run_id, path)
+    find_session_files(run_files(db, here), session)
 
     assert path.read_bytes() == b"second"
 
@@ -60,4 +66,14 @@ def test_the_policy_of_another_machine_is_renewed_in_place(
 def test_the_policy_that_this_machine_trains_is_followed_itself(db: Database, here: Settings, held: Claim) -> None:
     keep(db, here, held, b"first")
 
-    assert NewestPolicies(db, here).find(held.run_id) == here.run_directory(held.run_id) / "policy-newest.pt"
+    assert run_files(db, here).policy(held.run_id) == here.run_directory(held.run_id) / "policy-newest.pt"
+
+
+def test_a_file_that_the_run_has_not_got_is_named(db: Database, here: Settings, held: Claim) -> None:
+    with pytest.raises(NothingToShow, match=r"no file policy-epoch-0007\.pt"):
+        run_files(db, here).policy(held.run_id, "policy-epoch-0007.pt")
+
+
+def test_an_unknown_kind_of_view_is_named(db: Database, here: Settings, held: Claim) -> None:
+    with pytest.raises(UnknownName, match="called 'hologram'"):
+        find_session_files(run_files(db, here), request_session(db, held.run_id, {"kind": "hologram"}))
