@@ -30,6 +30,9 @@ from worker.words import StopWord
 RECORDING_INTERVAL_S = 60.0
 """While a run trains, its Rerun file is renewed after a test if it is older than this [s]."""
 
+RECORDING_SHARE = 0.01
+"""No more than this share of a training's time goes into that."""
+
 log = logging.getLogger(__name__)
 
 
@@ -55,7 +58,7 @@ class StoreRecorder:
         self._keeper = FileKeeper(db, FileStorage(settings), claim)
         self._stop_requested = stop_requested
         self._write_recording = write_recording
-        self._recorded_at = time.monotonic()
+        self._record_at = time.monotonic() + RECORDING_INTERVAL_S
         self._known = find_progress(db, claim.run_id)
         self._writer = MetricWriter(db, claim)
 
@@ -85,7 +88,7 @@ class StoreRecorder:
         self._writer.put(MetricPoint(step, dict(metrics)), self._known)
         if "test/success_rate" in metrics:
             log.info("epoch %d: test success %.1f %%", step.epoch, 100.0 * metrics["test/success_rate"])
-            if time.monotonic() - self._recorded_at > RECORDING_INTERVAL_S:
+            if time.monotonic() > self._record_at:
                 self._save_recording()
 
     def save_file(self, name: str, kind: str, write: Callable[[Path], None]) -> Path:
@@ -148,7 +151,7 @@ class StoreRecorder:
         write = self._write_recording
         if write is None or self._known is None:
             return
-        self._recorded_at = time.monotonic()
+        begun = time.monotonic()
         self._writer.flush()
         try:
             self.save_file(f"recording-attempt-{self._claim.attempt}.rrd", "recording", write)
@@ -157,3 +160,5 @@ class StoreRecorder:
         except Exception:
             # A training must not fail for a copy of what is in the store.
             log.exception("The Rerun file could not be written.")
+        ended = time.monotonic()
+        self._record_at = ended + max(RECORDING_INTERVAL_S, (ended - begun) / RECORDING_SHARE)

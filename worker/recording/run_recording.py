@@ -20,6 +20,7 @@ from worker.recording.content import EpisodeScene, Recording
 from worker.recording.curves import read_curves
 from worker.recording.log_lines import place_lines
 from worker.recording.rerun_file import write_recording
+from worker.viewer.session_files import RunFiles
 
 NEWEST_EPISODES = 2
 """Episodes of the newest test that are shown in 3D."""
@@ -41,7 +42,8 @@ def record_run(db: Database, settings: Settings, run_id: str, path: Path) -> Non
     storage = FileStorage(settings)
     lines = _read_log(db, settings, storage, run_id)
     title = f"{run.task} {run.method} {run.phase}, seed {run.seed}"
-    scenes = _make_scenes(storage, insist(lambda: list_files(db, run_id)))
+    files = RunFiles(db, settings, storage)
+    scenes = _make_scenes(files, run_id)
     write_recording(path, Recording(title, steps, curves, scenes, place_lines(lines, steps)))
 
 
@@ -56,17 +58,25 @@ def choose_tests(rows: Sequence[FileRow]) -> list[tuple[FileRow, int]]:
     return [(newest, NEWEST_EPISODES), *((row, 1) for row in chosen)]
 
 
-def _make_scenes(storage: FileStorage, rows: Sequence[FileRow]) -> list[EpisodeScene]:
-    """Work out a few recorded episodes; one that cannot be read is left out, and the log says so."""
-    from worker.recording.scenes import load_scene, make_scene  # Brings MuJoCo, which curves do without.
+def _make_scenes(files: RunFiles, run_id: str) -> list[EpisodeScene]:
+    """Work out a few recorded episodes; what cannot be read is left out, and the log says so."""
+    # Brings MuJoCo, which curves do without.
+    from worker.recording.demonstrations import Demonstrations
+    from worker.recording.scenes import load_scene, make_scene
 
     scenes: list[EpisodeScene] = []
-    model = None
-    for row, most in choose_tests(rows):
+    known = None
+    for row, most in choose_tests(insist(lambda: list_files(files.database, run_id))):
         try:
-            test = read_episodes(storage.bring(row))
-            model = model or load_scene(test.origin)
-            scenes += [make_scene(model, test.origin, episode) for episode in test.episodes[:most]]
+            test = read_episodes(files.storage.bring(row))
+            if known is None:
+                model = load_scene(test.origin)
+                known = model, Demonstrations(test.origin, model, files.locomotion_models(run_id))
+            model, demonstrations = known
+            scenes += [
+                make_scene(model, test.origin, episode, demonstrations.ways(episode))
+                for episode in test.episodes[:most]
+            ]
         except (SldrError, FilesUnavailable) as err:
             log.warning("The recording is without %s: %s", row.name, err)
     return scenes
