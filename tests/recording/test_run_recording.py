@@ -101,7 +101,7 @@ def test_the_command_writes_curves_episodes_and_log(
 
     assert f"rerun {out}" in capsys.readouterr().out
     found = {chunk.entity_path for chunk in RrdReader(out).stream()}
-    episode = "/episodes/epoch-0002/0"
+    episode = "/scenes/epoch-0002/0"
     wanted = {"/test/success_rate", "/log", f"{episode}/body/object0", f"{episode}/goal", f"{episode}/path/object0"}
     assert wanted | {f"{episode}/robot", f"{episode}/wanted/object0", f"{episode}/series/reward/task"} <= found
 

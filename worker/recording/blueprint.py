@@ -14,6 +14,9 @@ TIMELINE = "env_steps"
 LOG = "log"
 """Where the log stands."""
 
+BACKGROUND_RGB = (226, 232, 238)
+"""The air around episodes, as in our pictures."""
+
 _STREAM_GROUPS = ("critic", "stream")
 """Metrics `critic/<stream>/name` and `stream/<stream>/name` are about one stream."""
 
@@ -76,7 +79,7 @@ def _episode_view(scene: EpisodeScene) -> rrb.Container:
     last = max(len(next(iter(scene.series.values()), [])) - 1, 1)
     whole = rr.TimeRange(start=rr.TimeRangeBoundary.absolute(seq=0), end=rr.TimeRangeBoundary.absolute(seq=last))
     return rrb.Vertical(
-        rrb.Spatial3DView(origin="/", contents=in_space, name=scene.title, eye_controls=eye),
+        rrb.Spatial3DView(origin="/", contents=in_space, name=scene.title, eye_controls=eye, background=BACKGROUND_RGB),
         rrb.TimeSeriesView(
             origin=f"/{scene.path}/series",
             name="Rewards and Q on the timeline episode_step",

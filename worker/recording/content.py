@@ -72,7 +72,7 @@ class EpisodeScene:
     """One recorded episode in 3D, with the rewards that it earned."""
 
     path: str
-    """Below which its entities stand, as in `episodes/epoch-0012/0`."""
+    """Below which its entities stand, as in `scenes/epoch-0012/0`."""
     title: str
     env_steps: int
     """Control steps of training when it was recorded."""

@@ -28,6 +28,9 @@ PULL = 0.05
 PART_ACTION = 7
 """Numbers of one object action: a change of position and one of a quaternion."""
 
+EYE_NEARNESS = 0.55
+"""Rerun's eye opens wider than that of our pictures, so it stands nearer."""
+
 _ROBOT, _OBJECT, _TARGET, _MOCAP = "robot0:", "object", "target", ":mocap"
 _SOLIDS: dict[int, Solid] = {
     int(mujoco.mjtGeom.mjGEOM_BOX): "box",
@@ -69,8 +72,8 @@ def make_scene(
     name = f"epoch-{origin.epoch:04d}/{episode.index}"
     camera = find_camera(config.task_spec, config.phase)
     return EpisodeScene(
-        path=f"episodes/{name}",
-        title=f"Epoch {origin.epoch}, episode {episode.index}: {episode.tag}",
+        path=f"scenes/{name}",
+        title=f"Epoch {origin.epoch}, episode {episode.index}: {episode.tag.replace('_', ' ')}",
         env_steps=origin.env_steps,
         bodies=_bodies(model, pos, quat),
         bones=_bones(model, pos),
@@ -79,7 +82,7 @@ def make_scene(
         demonstrations=demonstrations or {},
         arrows=_arrows(config, episode, list(objects.values())),
         series=_series(origin, episode),
-        eye=Eye(_three(camera.position), camera.look_at),
+        eye=Eye(_three(camera.look_at + EYE_NEARNESS * (camera.position - camera.look_at)), camera.look_at),
     )
 
 
