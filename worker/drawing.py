@@ -28,7 +28,7 @@ MIN_CONTRAST = 4.0
 VIDEO_SHADOW_SIZE = 2048
 """Side of the map of shadows in videos [pixels]."""
 
-VIDEO_SAMPLES = 4
+VIDEO_SAMPLES = 2
 """Samples per pixel in videos."""
 
 

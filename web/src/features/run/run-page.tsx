@@ -18,6 +18,7 @@ import classes from './components/run.module.css';
 import { RunHeader } from './components/run-header';
 import { VideosTab } from './components/videos-tab';
 import { ViewerTab } from './components/viewer-tab';
+import { EpisodesTab } from './episodes/episodes-tab';
 import { type RunSearch, TABS, type Tab } from './search';
 
 const route = getRouteApi('/runs/$runId');
@@ -25,6 +26,7 @@ const route = getRouteApi('/runs/$runId');
 const TAB_NAMES: Record<Tab, string> = {
   overview: 'Overview',
   '3d': '3D',
+  episodes: 'Episodes',
   rerun: 'Rerun',
   videos: 'Videos',
   config: 'Config',
@@ -83,6 +85,9 @@ function RunTabs({ run }: { run: RunDetail }) {
       </Tabs.Panel>
       <Tabs.Panel value="videos">
         <VideosTab run={run} />
+      </Tabs.Panel>
+      <Tabs.Panel value="episodes">
+        <EpisodesTab run={run} search={search} onShow={show} />
       </Tabs.Panel>
       <Tabs.Panel value="config">
         <ConfigTab run={run} />
