@@ -87,10 +87,12 @@ def _draw_pictures(home: Path) -> subprocess.Popen[bytes]:
 
 
 def _show_one(policy: Path, port: int) -> None:
+    from worker.viewer.panel import add_panel
     from worker.viewer.reports import Job
     from worker.viewer.session import open_session, watch
 
     session = open_session(Job("alone", {"kind": "live"}, {"policy": (policy,)}), port)
+    add_panel(session.server, session.control.ask)
     print(f"{session.show.message} http://127.0.0.1:{session.port}/", flush=True)
     watch(session)
 

@@ -36,7 +36,6 @@ export function readRunSearch(raw: Record<string, unknown>): RunSearch {
   return {
     tab: TABS.find((tab) => tab === raw.tab),
     x: AXES.find((axis) => axis === raw.x),
-    episode: readEpisode(String(raw.episode)) && String(raw.episode),
     smooth: raw.smooth !== undefined && smooth >= 0 && smooth <= MOST_SMOOTHING ? smooth : undefined,
     episode: readEpisode(raw.episode) === undefined ? undefined : String(raw.episode),
     tag: TAGS.find((tag) => tag === raw.tag),

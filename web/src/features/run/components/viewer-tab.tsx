@@ -5,7 +5,8 @@ import type { RunDetail } from '@/client/schema.gen';
 import { SentencePanel } from '@/components/sentence-panel';
 import { sentence } from '@/lib/api';
 import { useViewerSession } from '../api/viewer-session';
-import { FIRST_CHOICE, readEpisode, type SceneChoice, sceneRequest } from '../scene-choice';
+import { readEpisode } from '../episodes/place';
+import { FIRST_CHOICE, type SceneChoice, sceneRequest } from '../scene-choice';
 import { SceneChoiceForm } from './scene-choice-form';
 import { SceneView } from './scene-view';
 
