@@ -16,6 +16,10 @@ export type SizeName = keyof typeof SIZES;
 /** What the camera beside a 3D scene shows. */
 export const INSET: Size = { width: 320, height: 240 };
 
+export function isInset({ width, height }: Size): boolean {
+  return width === INSET.width && height === INSET.height;
+}
+
 export const FORMATS = ['mp4', 'webm'] as const;
 export type Format = (typeof FORMATS)[number];
 

@@ -1,10 +1,10 @@
 /** What MuJoCo's own camera sees of a recorded episode, at the step that the scene beside it shows. */
-import { Button } from '@mantine/core';
+import { Button, Loader } from '@mantine/core';
 import { useQuery } from '@tanstack/react-query';
 import { useEffect, useRef } from 'react';
 import { sentence } from '@/lib/api';
 import { isOnItsWay, useOrderVideo, videosQuery } from '../api/videos';
-import { INSET, stepAtTime, timeOfStep } from '../video-sizes';
+import { INSET, isInset, stepAtTime, timeOfStep } from '../video-sizes';
 import classes from './videos.module.css';
 
 interface Props {
@@ -19,15 +19,13 @@ export function CameraInset({ runId, epoch, number, step }: Props) {
   const { data } = useQuery(videosQuery(runId));
   const order = useOrderVideo(runId);
   const video = useRef<HTMLVideoElement>(null);
-  const drawn = data?.videos.find(
-    (one) => one.epoch === epoch && one.number === number && one.width === INSET.width && one.height === INSET.height,
-  );
+  const drawn = data?.videos.find((video) => video.epoch === epoch && video.number === number && isInset(video));
   const url = drawn?.url;
   // biome-ignore lint/correctness/useExhaustiveDependencies: another video begins at its own beginning
   useEffect(() => seek(video.current, step), [step, url]);
   if (url) {
     return (
-      <figure className={`card ${classes.inset}`} style={{ margin: 0 }}>
+      <figure className={`card ${classes.inset}`}>
         <div className={classes.frame} style={{ aspectRatio: `${INSET.width} / ${INSET.height}` }}>
           <video
             ref={video}
@@ -42,9 +40,15 @@ export function CameraInset({ runId, epoch, number, step }: Props) {
       </figure>
     );
   }
-  if (drawn && isOnItsWay(drawn)) return <span role="status">The camera's pictures are being drawn.</span>;
+  if (drawn && isOnItsWay(drawn)) {
+    return (
+      <p className={classes.beside} role="status">
+        <Loader size="xs" /> What the camera sees is being drawn.
+      </p>
+    );
+  }
   return (
-    <span>
+    <p className={classes.beside}>
       <Button
         variant="default"
         size="compact-xs"
@@ -52,10 +56,10 @@ export function CameraInset({ runId, epoch, number, step }: Props) {
         onClick={() => order.mutate({ epoch, number, format: 'mp4', ...INSET })}
       >
         Show what the camera sees
-      </Button>{' '}
+      </Button>
       {order.error && <span role="alert">{sentence(order.error)}</span>}
       {drawn?.state === 'failed' && <span role="alert">{drawn.reason}</span>}
-    </span>
+    </p>
   );
 }
 
