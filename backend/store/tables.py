@@ -26,7 +26,7 @@ from sqlalchemy import (
     literal_column,
 )
 
-SCHEMA_REVISION = "0009"
+SCHEMA_REVISION = "0008"
 """The migration that these tables correspond to."""
 
 AnyRow = Row[*tuple[Any, ...]]
@@ -322,3 +322,21 @@ study_runs = Table(
     Column("run_id", String(ID_LENGTH), ForeignKey("runs.id"), nullable=False, index=True),
 )
 """Which run stands at which place of a study: one at most, so that no place is trained twice."""
+
+media_jobs = Table(
+    "media_jobs",
+    metadata,
+    Column("id", String(ID_LENGTH), primary_key=True),
+    Column("run_id", String(ID_LENGTH), ForeignKey("runs.id"), nullable=False, index=True),
+    Column("kind", String(ID_LENGTH), nullable=False),
+    Column("source", String(64), nullable=False),
+    Column("file_name", String(NAME_LENGTH), nullable=False),
+    Column("arguments", JSON, nullable=False),
+    Column("state", String(ID_LENGTH), nullable=False),
+    Column("reason", Text),
+    Column("fence", Integer, nullable=False, server_default="0"),
+    Column("lease_until", UtcDateTime),
+    Column("created_at", UtcDateTime, nullable=False),
+    Column("ended_at", UtcDateTime),
+    Index(None, "state", "created_at"),
+)

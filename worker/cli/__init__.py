@@ -21,6 +21,7 @@ COMMANDS = {
     "evaluate": "Measure the success of a trained policy.",
     "replay": "Simulate recorded episodes again and compare every bit.",
     "render": "Draw the picture of a task.",
+    "export": "Write what the store has of runs for other tools, such as Rerun.",
     "backup": "Copy all runs and their files to one place, while everything runs.",
     "restore": "Bring back what backup has copied.",
     "list": "List tasks, methods or presets.",

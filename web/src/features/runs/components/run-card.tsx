@@ -2,6 +2,7 @@
 import type { ComponentProps, ReactNode } from 'react';
 import { AnchorLink } from '@/components/anchor-link';
 import { RunProgress } from '@/components/run-progress';
+import { RunThumbnail } from '@/components/run-thumbnail';
 import { StateBadge } from '@/components/state-badge';
 import { TagChips } from '@/components/tag-chips';
 import { formatDuration } from '@/lib/format';
@@ -29,6 +30,7 @@ export function RunCard({ line, metrics, isSelected, findRun, onTag, box }: Prop
     <div className={`card ${classes.card}`} data-selected={isSelected || undefined}>
       <div className={classes.cardHead}>
         <SelectBox label={`Select ${runTitle(run)}`} isSelected={isSelected} {...box} />
+        <RunThumbnail runId={run.id} version={run.state} />
         <AnchorLink to="/runs/$runId" params={{ runId: run.id }} fw={600} aria-label={runTitle(run)}>
           {run.task}
         </AnchorLink>

@@ -2,6 +2,7 @@
 import type { RunSummary } from '@/client/schema.gen';
 import { AnchorLink } from '@/components/anchor-link';
 import { RunProgress } from '@/components/run-progress';
+import { RunThumbnail } from '@/components/run-thumbnail';
 import { StateBadge } from '@/components/state-badge';
 import { TagChips } from '@/components/tag-chips';
 import { formatDuration, NOTHING } from '@/lib/format';
@@ -10,6 +11,9 @@ import { wishOf } from '@/lib/states';
 import { BUILT_INS, type BuiltIn } from '../columns';
 import classes from './lines.module.css';
 import { Elapsed, Launched, Speed, Success } from './run-figures';
+
+/** Fits a line of the table [px]. */
+const THUMBNAIL_WIDTH = 36;
 
 interface Props {
   column: BuiltIn;
@@ -21,6 +25,7 @@ export function RunCell({ column, run, onTag }: Props) {
   if (column === 'task') {
     return (
       <th scope="row">
+        <RunThumbnail runId={run.id} version={run.state} width={THUMBNAIL_WIDTH} />{' '}
         <AnchorLink to="/runs/$runId" params={{ runId: run.id }} fw={600} fz={13} aria-label={runTitle(run)}>
           {run.task}
         </AnchorLink>
