@@ -10,6 +10,8 @@ from backend.comparison.variants import PRESET, Variant, distinguishing, label
 from backend.store.compared_runs import ComparedRun
 from sldr_core.config import LOCOMOTION_TASKS, METHODS, TASKS
 
+PALETTE_ORDER = ("her-sldr", "her", "her-rnd", "cher", "her-dense", "ddpg-sldr", "ddpg")
+"""Who gets which colour and dash: the paper's own method the plainest line, those close to it the most different."""
 DASHES = 7
 """Dash patterns of the palette; beyond, they begin anew."""
 
@@ -69,7 +71,9 @@ def _place(run: ComparedRun) -> tuple[int, str, int, bool, int, int]:
 def _make_groups(kinds: set[tuple[str, str]]) -> list[Group]:
     methods = [*METHODS, *sorted({method for method, _ in kinds} - set(METHODS))]
     groups: list[Group] = []
-    for index, method in enumerate(methods):
+    painted = [*PALETTE_ORDER, *(method for method in methods if method not in PALETTE_ORDER)]
+    for method in methods:
+        index = painted.index(method)
         title = METHODS[method].title if method in METHODS else method
         for place, variant in enumerate(sorted(variant for of, variant in kinds if of == method)):
             groups.append(

@@ -19,10 +19,11 @@ COMMANDS = {
     "runs": "List the runs in the store.",
     "train": "Train here and now, without page and queue.",
     "evaluate": "Measure the success of a trained policy.",
+    "replay": "Simulate recorded episodes again and compare every bit.",
     "render": "Draw the picture of a task.",
+    "export": "Draw figures of runs, or write runs for other tools: Rerun, TensorBoard, MLflow.",
     "backup": "Copy all runs and their files to one place, while everything runs.",
     "restore": "Bring back what backup has copied.",
-    "export": "Draw figures of runs, or write runs for other trackers.",
     "list": "List tasks, methods or presets.",
 }
 

@@ -40,6 +40,7 @@ TWO_MINUTES = StudySpec(
     preset="quick",
     overrides={
         "loop": {"epochs": 5, "cycles_per_epoch": 2, "updates_per_cycle": 20, "batch_size": 256, "test_episodes": 38},
+        "replay": {"capacity": 60_000},
         "sldr": {"gate": 0.0},
     },
 )

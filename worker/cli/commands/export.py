@@ -25,6 +25,7 @@ from backend.store.runs import get_runs
 from backend.store.settings import load_settings
 from sldr_core.config import Phase
 from sldr_core.errors import InvalidConfig, UnknownName
+from worker.cli.commands.export_rerun import export_rerun
 from worker.exports.exported_run import ExportedRun, load_exported
 
 FIGURES = ("svg", "pdf", "png", "csv", "tex")
@@ -86,6 +87,7 @@ def main(arguments: Sequence[str]) -> int:
     kinds: dict[str, Callable[..., int]] = {
         "figure": figure,
         "bundle": bundle,
+        "rerun": rerun,
         "tensorboard": tensorboard,
         "mlflow": mlflow,
     }
@@ -127,6 +129,16 @@ def bundle(out: Path, runs: Runs, view: View, anonymous: bool = False) -> int:
         ids = [member.run_id for panel in curves.panels for curve in panel.curves for member in curve.members]
         parts = Bundle(curves, best, read_configs(db, ids), anonymous, view.width)
     return _write(out, make_bundle(parts))
+
+
+def rerun(run: tyro.conf.Positional[str], out: tyro.conf.Positional[Path]) -> int:
+    """Make the Rerun file of a run again from the store: its curves, episodes and log.
+
+    Args:
+        run: The id of the run.
+        out: The .rrd file to write.
+    """
+    return export_rerun(run, out)
 
 
 def tensorboard(out: Path, runs: Runs, overwrite: bool = False) -> int:
