@@ -20,7 +20,6 @@ from backend.comparison.records import (
     BestScore,
     Efficiency,
     Improvement,
-    Numbers,
     OverallScore,
     Profile,
     SeedReach,
@@ -184,15 +183,15 @@ def _profile(scored: _Scored, group: str, tasks: Sequence[str], level: float) ->
     scores = [scored.scores(task, group) for task in tasks]
     estimate = performance_profile(scores, PROFILE_THRESHOLDS, level)
     has_band = min(map(len, scores)) >= SEEDS_FOR_BAND
-    nothing: Numbers = [None] * len(PROFILE_THRESHOLDS)
+    low, high = (to_numbers(end if has_band else np.full_like(end, np.nan)) for end in (estimate.low, estimate.high))
     return Profile(
         group=group,
         tasks=len(tasks),
         n=sum(map(len, scores)),
         thresholds=PROFILE_THRESHOLDS.tolist(),
         share=estimate.value.tolist(),
-        low=to_numbers(estimate.low) if has_band else nothing,
-        high=to_numbers(estimate.high) if has_band else nothing,
+        low=low,
+        high=high,
     )
 
 

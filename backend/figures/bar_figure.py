@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -72,7 +73,7 @@ def _draw_bar(axes: Axes, at: float, width: float, score: BestScore, group: Grou
     axes.scatter(places, bests, s=3.0 * size.line, color="#1c1f24", alpha=0.55, linewidths=0, zorder=3)
 
 
-def _look(group: Group) -> dict[str, object]:
+def _look(group: Group) -> dict[str, Any]:
     hatch = HATCHES[group.dash % len(HATCHES)]
     return {"color": color_of(group.color), "hatch": hatch, "edgecolor": "white", "linewidth": 0.3, "zorder": 2}
 

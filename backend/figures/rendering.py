@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from typing import Any
+from typing import Any, cast
 
 import matplotlib as mpl
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -28,7 +28,7 @@ METADATA: dict[str, dict[str, Any]] = {
 def render(drawing: Drawing) -> bytes:
     """Return a figure as the file that was asked for; the same drawing gives the same bytes."""
     size = SIZES[drawing.width]
-    with mpl.rc_context(settings(size)):
+    with mpl.rc_context(cast(Any, settings(size))):
         if isinstance(drawing.content, CurveComparison):
             figure = draw_curves(drawing.content, size, drawing.log_x, drawing.log_y)
         else:
