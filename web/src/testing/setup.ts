@@ -39,6 +39,7 @@ Object.defineProperties(Element.prototype, {
   scrollHeight: { configurable: true, get: () => 1_000_000 },
 });
 Object.defineProperty(document, 'fonts', { configurable: true, value: new EventTarget() });
+globalThis.IntersectionObserver = AllSeen;
 window.scrollTo = () => {};
 Element.prototype.scrollTo = function (this: Element, to?: ScrollToOptions | number) {
   this.scrollTop = typeof to === 'object' ? (to.top ?? 0) : 0;
