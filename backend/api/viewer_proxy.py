@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
+from collections.abc import Callable
 from html import escape
 from urllib.parse import quote
 
@@ -65,18 +66,28 @@ def open_view(token: str, request: Request) -> Response:
 def fetch_view(token: str, path: str, request: Request, service: ServiceParts) -> Response:
     """Fetch one file of the 3D page."""
     try:
-        port = _find_port(service, token)
+        port = find_port(service, token)
         return _fetch(service.viser, port, path, request)
     except NoView as error:
         return _sorry(request, error)
+
+
+@router.websocket("/{token}/control")
+async def stream_control(token: str, socket: WebSocket, service: ServiceParts) -> None:
+    """Connect our page with the session that it drives: commands in, states out, as JSON."""
+    await _stream(token, socket, service, find_control_port)
 
 
 @router.websocket("/{token}")
 @router.websocket("/{token}/")
 async def stream_view(token: str, socket: WebSocket, service: ServiceParts) -> None:
     """Connect a 3D page with its server: whole messages, both ways, as they are."""
+    await _stream(token, socket, service, find_port)
+
+
+async def _stream(token: str, socket: WebSocket, service: Service, find_door: Callable[[Service, str], int]) -> None:
     try:
-        port = await run_in_threadpool(_find_port, service, token)
+        port = await run_in_threadpool(find_door, service, token)
         server = await _connect(port, socket.scope.get("subprotocols", []))
     except NoView as error:
         await socket.send_denial_response(problem_answer(error.status, [problem(str(error))]))
@@ -86,8 +97,31 @@ async def stream_view(token: str, socket: WebSocket, service: ServiceParts) -> N
         await _relay(socket, server, service, token)
 
 
-def _find_port(service: Service, token: str) -> int:
-    """Return the port of the session that a token opens, and note that somebody watches it."""
+def find_port(service: Service, token: str) -> int:
+    """Return the port of the page that a token opens, and note that somebody watches it.
+
+    Raises:
+        NoView: it opens none.
+    """
+    port = _open(service, token).port
+    assert port is not None
+    return port
+
+
+def find_control_port(service: Service, token: str) -> int:
+    """Return the port at which the session that a token opens takes commands.
+
+    Raises:
+        NoView: it opens none.
+    """
+    port = _open(service, token).control_port
+    if port is None:
+        raise NoView(404, "This 3D view takes no commands; open it again from its run's page.")
+    return port
+
+
+def _open(service: Service, token: str) -> viewer_sessions.Session:
+    """Return the ready session that a token opens, and note that somebody watches it."""
     try:
         session = viewer_sessions.get_session(service.database, service.tokens.read(token))
     except BadToken as error:
@@ -101,7 +135,7 @@ def _find_port(service: Service, token: str) -> int:
         }
         raise NoView(404, sentences.get(session.state, "This 3D view has ended; open it again from its run's page."))
     viewer_sessions.touch(service.database, session.id)
-    return session.port
+    return session
 
 
 def _fetch(viser: httpx.Client, port: int, path: str, request: Request) -> Response:
@@ -173,7 +207,7 @@ async def _stay_open(service: Service, token: str) -> None:
     while True:
         await asyncio.sleep(TOUCH_INTERVAL_S)
         try:
-            await run_in_threadpool(_find_port, service, token)
+            await run_in_threadpool(find_port, service, token)
         except StoreUnavailable as error:
             log.warning("%s The 3D view goes on.", error)
 

@@ -14,7 +14,7 @@ from backend.store.dependents import why_blocked
 from backend.store.order import last_position
 from backend.store.states import Event, RunState, append_event
 from backend.store.tables import AnyRow, run_needs, runs
-from sldr_core.config import Phase, TrainConfig, config_hash, config_to_dict
+from sldr_core.config import Phase, TrainConfig, config_hash, config_to_dict, settings_hash
 from sldr_core.presets import locomotion_tasks, make_locomotion_config
 
 RUN_ID_LENGTH = 12
@@ -150,6 +150,7 @@ def _new_row(planned: PlannedRun, ids: Mapping[str, str], needed: Sequence[AnyRo
         "preset": planned.preset,
         "config": config_to_dict(planned.config),
         "config_hash": planned.config_hash,
+        "settings_hash": settings_hash(planned.config),
         "state": RunState.QUEUED if reason is None else RunState.BLOCKED,
         "reason": reason,
         "needs_gpu": planned.config.compute.device == "cuda",

@@ -26,7 +26,7 @@ from sqlalchemy import (
     literal_column,
 )
 
-SCHEMA_REVISION = "0009"
+SCHEMA_REVISION = "0008"
 """The migration that these tables correspond to."""
 
 AnyRow = Row[*tuple[Any, ...]]
@@ -82,6 +82,7 @@ runs = Table(
     Column("preset", String(NAME_LENGTH), nullable=False),
     Column("config", JSON, nullable=False),
     Column("config_hash", String(ID_LENGTH), nullable=False),
+    Column("settings_hash", String(ID_LENGTH)),
     Column("state", String(ID_LENGTH), nullable=False),
     Column("reason", Text),
     Column("success_rate", Float),
@@ -103,6 +104,7 @@ runs = Table(
     Column("started_at", UtcDateTime),
     Column("ended_at", UtcDateTime),
     Column("deleted_at", UtcDateTime),
+    Column("notes", Text),
     Index(None, "state", "number"),
     Index(None, "state", "rank", "queue_position", "number"),
     Index(None, "queue_position"),
@@ -194,6 +196,35 @@ Index(
     postgresql_where=literal_column(TEST_METRIC_INDEX_CONDITION.replace("metric_values.", "")),
 )
 
+metric_summaries = Table(
+    "metric_summaries",
+    metadata,
+    Column("run_id", String(ID_LENGTH), ForeignKey("runs.id"), primary_key=True),
+    Column("name", String(NAME_LENGTH), primary_key=True, index=True),
+    Column("points", Integer, nullable=False),
+    Column("last_step", Integer, nullable=False),
+    Column("last", Float, nullable=False),
+    Column("lowest", Float, nullable=False),
+    Column("highest", Float, nullable=False),
+    Column("tail", JSON, nullable=False),
+)
+
+run_tags = Table(
+    "run_tags",
+    metadata,
+    Column("run_id", String(ID_LENGTH), ForeignKey("runs.id"), primary_key=True),
+    Column("tag", String(NAME_LENGTH), primary_key=True, index=True),
+)
+
+saved_views = Table(
+    "saved_views",
+    metadata,
+    Column("id", String(ID_LENGTH), primary_key=True),
+    Column("name", String(NAME_LENGTH), nullable=False, unique=True),
+    Column("search", Text, nullable=False),
+    Column("created_at", UtcDateTime, nullable=False),
+)
+
 run_files = Table(
     "run_files",
     metadata,
@@ -205,6 +236,23 @@ run_files = Table(
     Column("sha256", String(64), nullable=False),
     Column("attempt", Integer, nullable=False),
     Column("created_at", UtcDateTime, nullable=False),
+)
+
+episodes = Table(
+    "episodes",
+    metadata,
+    Column("run_id", String(ID_LENGTH), ForeignKey("runs.id"), primary_key=True),
+    Column("epoch", Integer, primary_key=True, autoincrement=False),
+    Column("number", Integer, primary_key=True, autoincrement=False),
+    Column("attempt", Integer, nullable=False),
+    Column("file", String(NAME_LENGTH), nullable=False),
+    Column("success", Boolean, nullable=False),
+    Column("tag", String(ID_LENGTH), nullable=False),
+    Column("task_return", Float, nullable=False),
+    Column("worst_q", Float),
+    Column("worst_q_step", Integer),
+    Column("length", Integer, nullable=False),
+    Column("resimulates", Boolean, nullable=False),
 )
 
 workers = Table(
@@ -239,9 +287,11 @@ viewer_sessions = Table(
     metadata,
     Column("id", String(ID_LENGTH), primary_key=True),
     Column("run_id", String(ID_LENGTH), ForeignKey("runs.id"), nullable=False),
+    Column("request", JSON),
     Column("state", String(ID_LENGTH), nullable=False, index=True),
     Column("host_id", String(ID_LENGTH)),
     Column("port", Integer),
+    Column("control_port", Integer),
     Column("message", Text),
     Column("created_at", UtcDateTime, nullable=False),
     Column("touched_at", UtcDateTime, nullable=False),
@@ -272,3 +322,21 @@ study_runs = Table(
     Column("run_id", String(ID_LENGTH), ForeignKey("runs.id"), nullable=False, index=True),
 )
 """Which run stands at which place of a study: one at most, so that no place is trained twice."""
+
+media_jobs = Table(
+    "media_jobs",
+    metadata,
+    Column("id", String(ID_LENGTH), primary_key=True),
+    Column("run_id", String(ID_LENGTH), ForeignKey("runs.id"), nullable=False, index=True),
+    Column("kind", String(ID_LENGTH), nullable=False),
+    Column("source", String(64), nullable=False),
+    Column("file_name", String(NAME_LENGTH), nullable=False),
+    Column("arguments", JSON, nullable=False),
+    Column("state", String(ID_LENGTH), nullable=False),
+    Column("reason", Text),
+    Column("fence", Integer, nullable=False, server_default="0"),
+    Column("lease_until", UtcDateTime),
+    Column("created_at", UtcDateTime, nullable=False),
+    Column("ended_at", UtcDateTime),
+    Index(None, "state", "created_at"),
+)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import uuid
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from datetime import datetime, timedelta
 from typing import Any, Literal
@@ -30,11 +30,15 @@ class Session:
 
     id: str
     run_id: str
+    request: Mapping[str, Any]
+    """What it is to show: its `kind`, and what that kind can choose from."""
     state: SessionState
     host_id: str | None
     """The viewer host that serves it."""
     port: int | None
     """Where the host serves it on 127.0.0.1."""
+    control_port: int | None
+    """Where the host takes commands for it and tells its state, on 127.0.0.1."""
     message: str | None
     """What it shows, or why it ended or failed."""
     created_at: datetime
@@ -43,8 +47,16 @@ class Session:
     ended_at: datetime | None
 
 
-def request_session(db: Database, run_id: str) -> Session:
+LIVE: Mapping[str, Any] = {"kind": "live"}
+"""A request for the newest policy of a run."""
+
+
+def request_session(db: Database, run_id: str, request: Mapping[str, Any] = LIVE) -> Session:
     """Ask the viewer host for a session on a run.
+
+    Args:
+        run_id: the run.
+        request: what to show of it.
 
     Raises:
         NotFound: there is no such run.
@@ -54,7 +66,8 @@ def request_session(db: Database, run_id: str) -> Session:
         at = current_time(conn)
         if conn.execute(select(runs.c.id).where(runs.c.id == run_id)).one_or_none() is None:
             raise NotFound("run", run_id)
-        values = {"id": session_id, "run_id": run_id, "state": "starting", "created_at": at, "touched_at": at}
+        values = {"id": session_id, "run_id": run_id, "request": dict(request), "state": "starting"}
+        values |= {"created_at": at, "touched_at": at}
         conn.execute(insert(viewer_sessions).values(values))
     return get_session(db, session_id)
 
@@ -72,12 +85,15 @@ def next_requested(db: Database, host_id: str) -> Session | None:
     take = update(viewer_sessions).where(viewer_sessions.c.id == oldest).values(host_id=host_id)
     with db.write() as conn:
         row = conn.execute(take.returning(*viewer_sessions.c)).mappings().one_or_none()
-    return None if row is None else Session(**row)
+    return None if row is None else _session(row)
 
 
-def mark_ready(db: Database, session_id: str, port: int, message: str | None = None) -> bool:
+def mark_ready(
+    db: Database, session_id: str, port: int, message: str | None = None, control_port: int | None = None
+) -> bool:
     """Record that a session can be opened; False if somebody ended it meanwhile."""
-    return _change(db, session_id, ("starting",), {"state": "ready", "port": port, "message": message})
+    changes = {"state": "ready", "port": port, "control_port": control_port, "message": message}
+    return _change(db, session_id, ("starting",), changes)
 
 
 def mark_ended(db: Database, session_id: str, failed: bool = False, message: str | None = None) -> bool:
@@ -135,14 +151,14 @@ def get_session(db: Database, session_id: str) -> Session:
         row = conn.execute(select(viewer_sessions).where(viewer_sessions.c.id == session_id)).mappings().one_or_none()
     if row is None:
         raise NotFound("viewer session", session_id)
-    return Session(**row)
+    return _session(row)
 
 
 def list_open(db: Database) -> list[Session]:
     """Return the sessions that are not over, oldest first."""
     query = select(viewer_sessions).where(viewer_sessions.c.state.in_(OPEN)).order_by(viewer_sessions.c.created_at)
     with db.read() as conn:
-        return [Session(**row) for row in conn.execute(query).mappings()]
+        return [_session(row) for row in conn.execute(query).mappings()]
 
 
 def beat_host(db: Database, host_id: str, pid: int, machine: str | None = None) -> None:
@@ -165,6 +181,11 @@ def is_host_alive(db: Database) -> bool:
         alive_since = current_time(conn) - timedelta(seconds=HOST_ALIVE_S)
         query = select(func.count()).select_from(viewer_hosts).where(viewer_hosts.c.beat_at > alive_since)
         return conn.execute(query).scalar_one() > 0
+
+
+def _session(row: Mapping[str, Any]) -> Session:
+    """Return a row as a record; rows that are older than requests asked for the newest policy."""
+    return Session(**{**row, "request": row["request"] or LIVE})
 
 
 def _change(db: Database, session_id: str, allowed: tuple[SessionState, ...], changes: dict[str, Any]) -> bool:

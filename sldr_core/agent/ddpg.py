@@ -69,6 +69,13 @@ class DdpgAgent:
         """Return the deterministic actions `[..., A]` of the online actor."""
         return self.actor(self.features(obs.to(self._device), goal.to(self._device))).cpu()
 
+    @torch.no_grad()
+    def values(self, obs: Tensor, goal: Tensor, action: Tensor) -> Tensor:
+        """Return what each stream's online critic says of `B` observations, goals and actions, `[S, B]`."""
+        with self._precision():
+            features = self.features(obs, goal)
+            return self.critics(torch.cat([features, action], dim=-1))[..., 0].float()
+
     def observe(self, obs: Tensor, goal: Tensor) -> Drift:
         """Take visited observations and their original goals into the running statistics; return how they moved."""
         return self.normalizer.update(self._view.features(obs.to(self._device), goal.to(self._device)))

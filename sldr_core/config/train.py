@@ -41,6 +41,8 @@ class LoopConfig:
     """Cycles of uniformly random actions collected before the first update."""
     test_episodes: Positive = 380
     """Episodes of each test, with the deterministic actor."""
+    recorded_episodes: Annotated[int, Field(ge=0, le=64)] = 6
+    """The first episodes of each test that are kept to be looked at (0: none); what is learnt does not depend on it."""
     stop_at_success: Share = 1.0
     """End the training early once this test success is held for `stop_after_tests` tests in a row."""
     stop_after_tests: Annotated[int, Field(ge=0)] = 0
@@ -233,7 +235,16 @@ def config_schema() -> dict[str, Any]:
 
 def config_hash(config: TrainConfig) -> str:
     """Return 16 hex digits that are equal for configs that compute the same training."""
-    canonical = json.dumps(config_to_dict(config), sort_keys=True, separators=(",", ":"))
+    return _digest(config_to_dict(config))
+
+
+def settings_hash(config: TrainConfig) -> str:
+    """Return 16 hex digits that are equal for configs that differ in nothing but the seed."""
+    return _digest({name: value for name, value in config_to_dict(config).items() if name != "seed"})
+
+
+def _digest(values: dict[str, Any]) -> str:
+    canonical = json.dumps(values, sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(canonical.encode()).hexdigest()[:16]
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -71,6 +72,40 @@ def is_success(criterion: Criterion, achieved: Goals, goal: Goals) -> NDArray[np
     if criterion.angle is not None:
         reached &= _pose_angle(criterion, achieved, goal) < criterion.angle
     return reached
+
+
+@dataclass(frozen=True)
+class Offsets:
+    """How far achieved goals are from desired ones, of any batch shape."""
+
+    distance: NDArray[np.float64]
+    """Largest distance of an object from its goal [m], or the joint norm where that is scored."""
+    angle: NDArray[np.float64]
+    """Angle between the rotations [rad]; NaN where goals have none."""
+    gap: NDArray[np.float64]
+    """The larger of those that are scored, in thresholds of success: it is reached below 1."""
+
+
+def goal_offsets(criterion: Criterion, achieved: Goals, goal: Goals) -> Offsets:
+    """Return how far goals `[..., G]` are, in units and in thresholds."""
+    if isinstance(criterion, PositionGoals):
+        distance = np.asarray(goal_distance(criterion, achieved, goal), dtype=np.float64)
+        return Offsets(distance, np.full_like(distance, np.nan), distance / criterion.distance)
+    distance = np.asarray(_pose_distance(achieved, goal), dtype=np.float64)
+    angle = np.asarray(_pose_angle(criterion, achieved, goal), dtype=np.float64)
+    gap = np.zeros_like(distance)
+    if criterion.distance is not None:
+        gap = np.maximum(gap, distance / criterion.distance)
+    if criterion.angle is not None:
+        gap = np.maximum(gap, angle / criterion.angle)
+    return Offsets(distance, angle, gap)
+
+
+def object_positions(criterion: Criterion, achieved: Goals) -> NDArray[np.floating]:
+    """Return the positions of the objects [m], `[..., O, 3]`, in achieved goals `[..., G]`."""
+    if isinstance(criterion, PositionGoals):
+        return achieved.reshape(*achieved.shape[:-1], -1, POSITION_SIZE)
+    return achieved[..., None, :POSITION_SIZE]
 
 
 def goal_gaps(criterion: Criterion, goals: Goals, others: Goals) -> NDArray[np.float64]:

@@ -19,7 +19,7 @@ from sldr_core.nets.normalizer import Normalizer
 from sldr_core.nets.transitions import Transitions
 from sldr_core.nets.views import View, view_of
 from sldr_core.records import Floats
-from sldr_core.streams.stream import StreamOrder
+from sldr_core.streams.stream import ObjectActions, StreamOrder
 
 
 class RndNets(nn.Module):
@@ -86,6 +86,10 @@ class RndStream:
         with self._precision():
             errors = self.nets.squared_errors(self._next_features(batch))
         return self.nets.scale(errors.sum(dim=-1, keepdim=True))[:, 0]
+
+    def object_actions(self, batch: Transitions) -> ObjectActions | None:
+        """Return nothing: the rewards come from no actions of an object."""
+        return None
 
     def learn(self, batch: Transitions) -> dict[str, Tensor]:
         """Learn to predict at the next states of the batch."""

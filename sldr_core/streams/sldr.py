@@ -8,6 +8,8 @@ robot made it do, with u = nu(z, g), what it wanted.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from contextlib import AbstractContextManager
+from typing import Any
 
 import torch
 from torch import Tensor
@@ -17,7 +19,7 @@ from sldr_core.nets.locomotion_model import LocomotionModel, LocomotionNets
 from sldr_core.nets.transitions import Transitions
 from sldr_core.nets.views import PartView, part_view
 from sldr_core.records import Floats
-from sldr_core.streams.stream import FixedStream, StreamOrder
+from sldr_core.streams.stream import FixedStream, ObjectActions, StreamOrder
 
 
 def advantage(nets: LocomotionNets, features: Tensor, induced: Tensor) -> Tensor:
@@ -63,6 +65,7 @@ class SldrStream(FixedStream):
         autocast: bool,
     ) -> None:
         self.name = f"sldr/{part}"
+        self._part = part
         self.weight = config.weight
         self._stored = f"{self.name}/induced_action"
         self.stored_sizes: Mapping[str, int] = {self._stored: model.config.task_spec.object_action_size}
@@ -82,9 +85,21 @@ class SldrStream(FixedStream):
     @torch.no_grad()
     def reward(self, batch: Transitions) -> Tensor:
         """Return q in [-1, 0], `[B]`, under the sampled goal."""
-        with torch.autocast(self._device.type, dtype=torch.bfloat16, enabled=self._autocast):
-            features = self._nets.features(self._view.object_state(batch.obs), self._view.part_goal(batch.goal))
-            return self._reward(self._nets, features, batch.extra[self._stored]).clamp(-1.0, 0.0)
+        with self._precision():
+            return self._reward(self._nets, self._features(batch), batch.extra[self._stored]).clamp(-1.0, 0.0)
+
+    @torch.no_grad()
+    def object_actions(self, batch: Transitions) -> ObjectActions:
+        """Return u under the sampled goal, and the stored w."""
+        with self._precision():
+            wanted = self._nets.action(self._features(batch)).float()
+        return ObjectActions(self._part, wanted, batch.extra[self._stored])
+
+    def _features(self, batch: Transitions) -> Tensor:
+        return self._nets.features(self._view.object_state(batch.obs), self._view.part_goal(batch.goal))
+
+    def _precision(self) -> AbstractContextManager[Any]:
+        return torch.autocast(self._device.type, dtype=torch.bfloat16, enabled=self._autocast)
 
 
 def build_sldr(order: StreamOrder) -> list[SldrStream]:

@@ -15,6 +15,18 @@ from sldr_core.nets.transitions import Transitions
 from sldr_core.records import Floats
 
 
+@dataclass(frozen=True)
+class ObjectActions:
+    """What a part wanted to do and what the robot made it do."""
+
+    part: str
+    """The part's name."""
+    wanted: Tensor
+    """u = nu(z, g), `[B, U]`."""
+    induced: Tensor
+    """w = I(z, z'), `[B, U]`."""
+
+
 class Stream(Protocol):
     """Reward transitions under the goals they were given; some learn to."""
 
@@ -45,6 +57,10 @@ class Stream(Protocol):
         """Return rewards `[B]`; nothing is learnt from the question."""
         ...
 
+    def object_actions(self, batch: Transitions) -> ObjectActions | None:
+        """Return the actions that the rewards come from, where they come from any; nothing is learnt."""
+        ...
+
     def learn(self, batch: Transitions) -> dict[str, Tensor]:
         """Learn from the batch of an update, after the agent did; return scalars by metric name."""
         ...
@@ -69,6 +85,10 @@ class FixedStream:
 
     def observe(self, obs: Tensor, goal: Tensor) -> None:
         """Take in nothing."""
+
+    def object_actions(self, batch: Transitions) -> ObjectActions | None:
+        """Return nothing: the rewards come from no actions of an object."""
+        return None
 
     def learn(self, batch: Transitions) -> dict[str, Tensor]:
         """Learn nothing."""

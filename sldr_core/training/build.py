@@ -13,7 +13,8 @@ import torch
 from sldr_core.agent import DdpgAgent, InverseLearner
 from sldr_core.config import Auxiliary, SamplerName, TrainConfig, find_task
 from sldr_core.disk import check_room
-from sldr_core.envs import Envs, make_envs
+from sldr_core.envs import Envs, TouchSense, make_envs
+from sldr_core.episodes import episode_bytes
 from sldr_core.errors import BadFile, LocomotionMissing
 from sldr_core.nets.locomotion_model import LocomotionModel, load_locomotion_model
 from sldr_core.nets.views import view_of
@@ -125,8 +126,31 @@ def _make_buffer(
     """Make the replay file, once it is known that it and every other file of the run fits."""
     shapes = _episode_shapes(envs, streams)
     capacity, slack = replay_episodes(config)
-    check_room(directory, planned_sizes(config, replay_bytes(shapes, capacity + slack), envs.state(), learners))
+    planned = planned_sizes(
+        config, replay_bytes(shapes, capacity + slack), recorded_bytes(envs, streams), envs.state(), learners
+    )
+    check_room(directory, planned)
     return ReplayBuffer(directory / REPLAY_FILE, shapes, capacity, slack)
+
+
+def recorded_bytes(envs: Envs, streams: Sequence[Stream]) -> int:
+    """Return what one recorded episode takes before it is packed [bytes]."""
+    actions = [size for stream in streams for size in stream.stored_sizes.values()]
+    return episode_bytes(
+        {
+            "T": envs.episode_length,
+            "K": envs.simulation.snapshot().shape[1],
+            "nq": envs.qpos.shape[1],
+            "nv": envs.qvel.shape[1],
+            "D": envs.obs_size,
+            "G": envs.goal_size,
+            "A": envs.action_size,
+            "S": len(streams),
+            "P": len(actions),
+            "U": max(actions, default=0),
+            "O": len(TouchSense(envs.model).objects),
+        }
+    )
 
 
 def _load_models(config: TrainConfig, paths: Sequence[Path], gate: float) -> dict[str, LocomotionModel]:

@@ -35,6 +35,9 @@ PARTS = frozenset(
 )
 """What a checkpoint cannot do without."""
 
+COUNTED_LATER = {"best_epoch": 0}
+"""Counters that checkpoints of earlier versions lack."""
+
 START_ANEW = "remove every checkpoint of this directory to start the run anew"
 
 log = logging.getLogger(__name__)
@@ -54,6 +57,8 @@ class Counters:
     """Success of the newest test; -1 before the first."""
     best_success_rate: float = -1.0
     """Success of the best test; -1 before the first."""
+    best_epoch: int = 0
+    """Epoch of the best test; 0 before the first."""
     tests_held: int = 0
     """Newest tests in a row that reached `loop.stop_at_success`."""
 
@@ -167,7 +172,8 @@ def restore_training(kept: Kept, parts: Parts) -> Counters:
         _unpack_rng(parts.sampler.rng, content["sampler_rng"])
         _unpack_rng(parts.exploration.rng, content["exploration_rng"])
         parts.buffer.written = int(content["replay_written"])
-        return Counters(**{field.name: content["counters"][field.name] for field in fields(Counters)})
+        counters = {**COUNTED_LATER, **content["counters"]}
+        return Counters(**{field.name: counters[field.name] for field in fields(Counters)})
     except (AttributeError, KeyError, TypeError, ValueError, RuntimeError) as err:
         raise BadFile(f"{kept.path} is no whole checkpoint ({one_line(err)}); {START_ANEW}.") from err
 

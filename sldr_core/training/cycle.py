@@ -45,7 +45,7 @@ def learn(parts: Parts, updates_before: int, check: Check) -> dict[str, float]:
     loop = parts.config.loop
     gathered = Gathered()
     for update in range(updates_before + 1, updates_before + loop.updates_per_cycle + 1):
-        batch = _on_device(parts.sampler.sample(loop.batch_size, update - 1), parts.compute.device)
+        batch = on_device(parts.sampler.sample(loop.batch_size, update - 1), parts.compute.device)
         rewards = {stream.name: stream.reward(batch) for stream in parts.streams}
         metrics = _reward_metrics(rewards)
         metrics.update(parts.agent.update(batch, torch.stack(list(rewards.values()))))
@@ -88,7 +88,8 @@ def _reward_metrics(rewards: Mapping[str, Tensor]) -> dict[str, Tensor]:
     return metrics
 
 
-def _on_device(sample: Sample, device: torch.device) -> Transitions:
+def on_device(sample: Sample, device: torch.device) -> Transitions:
+    """Return a sample as tensors."""
     tensors = {
         name: torch.from_numpy(getattr(sample, name)).to(device)
         for name in ("obs", "next_obs", "goal", "action", "reward")

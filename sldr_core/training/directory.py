@@ -6,12 +6,15 @@ import fcntl
 import json
 import os
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict
+from functools import partial
 from pathlib import Path
 
 from sldr_core.disk import explain_full_disk, sync, write_atomically
+from sldr_core.episodes import KIND as EPISODES_KIND
+from sldr_core.episodes import RecordedTest, episodes_file, remove_episodes, write_episodes
 from sldr_core.errors import DirectoryInUse
 from sldr_core.records import Step
 from sldr_core.training.files import METRICS_FILE
@@ -56,6 +59,16 @@ class DirectoryRecorder:
         # A checkpoint must never be on the disk before the lines that it says are logged.
         sync(self._directory / METRICS_FILE)
         return write_atomically(self._directory / name, write)
+
+    def record_episodes(self, test: RecordedTest, kept_epochs: Collection[int]) -> None:
+        """Write the test's file, then remove those of earlier tests that are not to be kept.
+
+        Raises:
+            DiskTooFull: there is no room for it.
+        """
+        newest = test.origin.epoch
+        self.save_file(episodes_file(newest), EPISODES_KIND, partial(write_episodes, test=test))
+        remove_episodes(self._directory, newest, kept_epochs)
 
     def stop_requested(self) -> StopReason | None:
         """Return what `request_stop` was given."""

@@ -9,6 +9,7 @@ import numpy as np
 import torch
 
 from sldr_core.config import TrainConfig
+from sldr_core.episodes import MOST_FILES, episodes_file
 
 METRICS_FILE = "metrics.jsonl"
 REPLAY_FILE = "replay.bin"
@@ -21,6 +22,9 @@ NEWEST_POLICY_FILE = "policy-newest.pt"
 BEST_POLICY_FILE = "policy-best.pt"
 LOCOMOTION_FILE = "locomotion.pt"
 
+KEPT_POLICIES = 12
+"""Policies that are kept while a training goes on, evenly spread over its epochs: one can see it learn afterwards."""
+
 METRICS_LINE = 8192
 """More than the line of a cycle ever takes [bytes]."""
 
@@ -28,18 +32,36 @@ ADAM_COPIES = 3
 """A weight is kept beside the two moments that Adam has of it."""
 
 
+def kept_policy_file(epoch: int) -> str:
+    """Return the name of the policy that is kept of an epoch."""
+    return f"policy-epoch-{epoch:04d}.pt"
+
+
+def keeps_policy(epoch: int, epochs: int) -> bool:
+    """Tell whether the policy of an epoch, from 1, is kept in a training of so many: the first, then evenly."""
+    return epoch == 1 or epoch % -(-epochs // KEPT_POLICIES) == 0
+
+
 def planned_sizes(
-    config: TrainConfig, replay_bytes: int, envs: Mapping[str, Any], learners: Sequence[Mapping[str, Any]]
+    config: TrainConfig,
+    replay_bytes: int,
+    episode_bytes: int,
+    envs: Mapping[str, Any],
+    learners: Sequence[Mapping[str, Any]],
 ) -> dict[str, int]:
     """Return how large a run's files become at most [bytes], by name.
 
     Args:
         config: what is trained.
         replay_bytes: size of the replay file [bytes].
+        episode_bytes: size of one recorded episode [bytes].
         envs: state of the environments.
         learners: states of everything that learns, before its first update.
     """
     weights = sum(_bytes_in(learner) for learner in learners)
+    recorded = min(config.loop.recorded_episodes, config.loop.test_episodes)
+    # Beside those that are spread over the training stay those of the best and the newest test.
+    tests = range(1, min(config.loop.epochs, MOST_FILES + 2) + 1) if recorded else ()
     checkpoint = ADAM_COPIES * weights + 2 * _bytes_in(envs)
     return {
         REPLAY_FILE: replay_bytes,
@@ -48,9 +70,15 @@ def planned_sizes(
         "the next checkpoint": checkpoint,
         NEWEST_POLICY_FILE: weights,
         BEST_POLICY_FILE: weights,
+        **{kept_policy_file(epoch): weights for epoch in _kept_policies(config.loop.epochs)},
         **({LOCOMOTION_FILE: weights} if config.phase == "locomotion" else {}),
+        **{episodes_file(epoch): recorded * episode_bytes for epoch in tests},
         METRICS_FILE: METRICS_LINE * config.total_cycles,
     }
+
+
+def _kept_policies(epochs: int) -> list[int]:
+    return [epoch for epoch in range(1, epochs + 1) if keeps_policy(epoch, epochs)]
 
 
 def _bytes_in(value: Any) -> int:

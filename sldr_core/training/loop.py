@@ -11,6 +11,7 @@ from pathlib import Path
 import torch
 
 from sldr_core.config import TrainConfig
+from sldr_core.episodes import kept_epochs, tag_shares
 from sldr_core.nets.locomotion_model import LocomotionModel, LocomotionNets, Measured
 from sldr_core.presets.budget import CHECKPOINT_CYCLES
 from sldr_core.records import Step
@@ -25,12 +26,21 @@ from sldr_core.training.checkpoint import (
 from sldr_core.training.cycle import collect, collect_random, learn
 from sldr_core.training.directory import alone_in
 from sldr_core.training.dump import keep_evidence
-from sldr_core.training.files import BEST_POLICY_FILE, CHECKPOINT_FILE, LOCOMOTION_FILE, NEWEST_POLICY_FILE
+from sldr_core.training.files import (
+    BEST_POLICY_FILE,
+    CHECKPOINT_FILE,
+    LOCOMOTION_FILE,
+    NEWEST_POLICY_FILE,
+    keeps_policy,
+    kept_policy_file,
+)
 from sldr_core.training.finite import NonFinite, check_metrics, check_weights
 from sldr_core.training.policy import write_policy
 from sldr_core.training.recorder import Recorder, StopReason
+from sldr_core.training.recording import EpisodeRecording
 from sldr_core.training.rollout import Collected, numpy_policy
 from sldr_core.training.testing import run_test
+from sldr_core.training.witness import Witness
 
 
 @dataclass(frozen=True)
@@ -86,6 +96,7 @@ class _Loop:
         self._loop = parts.config.loop
         self._counters = counters
         self._recorder = recorder
+        self._recording = EpisodeRecording(parts)
         self._clock = time.monotonic() - counters.wall_seconds
         self._cycle = 0
 
@@ -144,23 +155,36 @@ class _Loop:
     def _test(self) -> dict[str, float]:
         counters = self._counters
         act = numpy_policy(self._parts.agent.act)
-        result = run_test(self._parts.test_envs, act, self._loop.test_episodes, self._check)
+        witness = Witness(self._parts.test_envs, self._loop.recorded_episodes)
+        result = run_test(self._parts.test_envs, act, self._loop.test_episodes, self._check, witness)
         rate = result.success_rate
         counters.test_success_rate = rate
         counters.tests_held = counters.tests_held + 1 if rate >= self._loop.stop_at_success else 0
         write = partial(write_policy, parts=self._parts, counters=counters)
         self._recorder.save_file(NEWEST_POLICY_FILE, "policy", write)
+        epoch = self._step().epoch
+        if keeps_policy(epoch, self._loop.epochs):
+            self._recorder.save_file(kept_policy_file(epoch), "policy", write)
         if rate >= counters.best_success_rate:
             counters.best_success_rate = rate
+            counters.best_epoch = epoch
             self._recorder.save_file(BEST_POLICY_FILE, "policy", write)
             if self._parts.inverse is not None:
                 model = _locomotion_model(self._parts, Measured(rate, result.episodes))
                 self._recorder.save_file(LOCOMOTION_FILE, "locomotion", model.save)
+        self._record_episodes(witness)
         return {
             "test/success_rate": rate,
             "test/best_success_rate": counters.best_success_rate,
             "test/final_distance": result.mean_final_distance,
+            **{f"episodes/{tag}_share": share for tag, share in tag_shares(witness.tags).items()},
         }
+
+    def _record_episodes(self, witness: Witness) -> None:
+        if witness.courses:
+            step = self._step()
+            test = self._recording.record(witness.courses, step.epoch, step.env_steps)
+            self._recorder.record_episodes(test, kept_epochs(step.epoch, self._counters.best_epoch))
 
     def _is_finished(self) -> bool:
         wanted = self._loop.stop_after_tests

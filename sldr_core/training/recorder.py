@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 from typing import Literal, Protocol
 
+from sldr_core.episodes import RecordedTest
 from sldr_core.records import Step
 
 StopReason = Literal["cancel", "pause", "shutdown"]
@@ -26,6 +27,10 @@ class Recorder(Protocol):
 
     def save_file(self, name: str, kind: str, write: Callable[[Path], None]) -> Path:
         """Keep a file: `write` fills a temporary path, which is synced and renamed to `name`."""
+        ...
+
+    def record_episodes(self, test: RecordedTest, kept_epochs: Collection[int]) -> None:
+        """Keep the first episodes of a test, and of the tests before it those of `kept_epochs` alone."""
         ...
 
     def stop_requested(self) -> StopReason | None:

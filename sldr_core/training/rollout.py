@@ -13,7 +13,7 @@ import torch
 from numpy.typing import NDArray
 
 from sldr_core.config import ExplorationConfig
-from sldr_core.envs import Envs
+from sldr_core.envs import Envs, Observation
 from sldr_core.records import Episodes, Floats
 from sldr_core.training.finite import check_episodes
 
@@ -22,6 +22,10 @@ Act = Callable[[Floats, Floats], Floats]
 
 Check = Callable[[], None]
 """Called between steps; raises to abandon what is being done."""
+
+
+Watch = Callable[[int, Observation], None]
+"""Shown every moment of the episodes, from 0 to T, right after it has come; it changes nothing."""
 
 
 class Exploration:
@@ -58,7 +62,7 @@ class Collected:
     """Distance between the last achieved goal and the goal, `[N]`."""
 
 
-def collect_episodes(envs: Envs, act: Act, check: Check) -> Collected:
+def collect_episodes(envs: Envs, act: Act, check: Check, watch: Watch | None = None) -> Collected:
     """Reset every simulation and run one episode in each.
 
     Raises:
@@ -70,11 +74,14 @@ def collect_episodes(envs: Envs, act: Act, check: Check) -> Collected:
     achieved = np.empty((count, length + 1, envs.goal_size), dtype=np.float32)
     action = np.empty((count, length, envs.action_size), dtype=np.float32)
     goal = now.goal.astype(np.float32)
+    show = watch or (lambda t, now: None)
     for t in range(length):
+        show(t, now)
         obs[:, t], achieved[:, t] = now.obs, now.achieved
         action[:, t] = act(obs[:, t], goal)
         now = envs.step(action[:, t])
         check()
+    show(length, now)
     obs[:, length], achieved[:, length] = now.obs, now.achieved
     episodes = Episodes(obs, achieved, goal, action)
     check_episodes(episodes)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from sldr_core.envs import Envs
 from sldr_core.training.rollout import Act, Check, collect_episodes
+from sldr_core.training.witness import Witness
 
 CONFIDENCE_Z = 1.959963984540054
 """Normal quantile of a two-sided 95 % interval."""
@@ -27,12 +28,14 @@ class TestResult:
         return self.successes / self.episodes
 
 
-def run_test(envs: Envs, act: Act, episodes: int, check: Check) -> TestResult:
-    """Run at least `episodes` deterministic episodes and count the first `episodes` of them."""
+def run_test(envs: Envs, act: Act, episodes: int, check: Check, witness: Witness | None = None) -> TestResult:
+    """Run at least `episodes` deterministic episodes and count the first `episodes` of them, which a witness sees."""
     successes, counted, distance = 0, 0, 0.0
     while counted < episodes:
-        collected = collect_episodes(envs, act, check)
         taken = min(envs.num_envs, episodes - counted)
+        collected = collect_episodes(envs, act, check, witness.begin(taken) if witness else None)
+        if witness:
+            witness.end(collected, taken)
         successes += int(collected.success[:taken].sum())
         distance += float(collected.final_distance[:taken].sum())
         counted += taken

@@ -36,9 +36,9 @@ class Service:
         assert answer.status_code == 200, answer.text
         return answer.json()
 
-    def launch(self, method: str = "her", seeds: tuple[int, ...] = (0,)) -> list[str]:
+    def launch(self, method: str = "her", seeds: tuple[int, ...] = (0,), task: str = "FetchPush") -> list[str]:
         """Launch runs past the API."""
-        return launch(self.database, LaunchOrder("FetchPush", "manipulation", method, seeds, "smoke"))
+        return launch(self.database, LaunchOrder(task, "manipulation", method, seeds, "smoke"))
 
     def claim(self) -> Claim:
         """Take the oldest queued run, as a worker does."""

@@ -72,8 +72,8 @@ def open_session(service: Service, port: int) -> View:
     held = service.claim()
     service.write_file(held, "policy-newest.pt", b"policy")
     viewer_sessions.beat_host(service.database, "host", 1)
-    session = service.client.post("/api/viewer-sessions", json={"run_id": held.run_id}).json()
-    viewer_sessions.mark_ready(service.database, session["id"], port, "the newest policy")
+    session = service.client.post("/api/viewer-sessions", json={"kind": "live", "run_id": held.run_id}).json()
+    viewer_sessions.mark_ready(service.database, session["id"], port, "the newest policy", control_port=port)
     url = service.get(f"/api/viewer-sessions/{session['id']}")["url"]
     address = str(service.client.base_url).rstrip("/")
     socket_url = address.replace("http", "ws") + url.rstrip("/")
@@ -95,25 +95,27 @@ def view(service: Service) -> Iterator[View]:
 
 def test_a_run_without_a_policy_cannot_be_watched(service: Service):
     [run_id] = service.launch()
-    answer = service.client.post("/api/viewer-sessions", json={"run_id": run_id})
+    answer = service.client.post("/api/viewer-sessions", json={"kind": "live", "run_id": run_id})
     assert answer.status_code == 409
     assert problem_fields(answer) == ["run_id"]
 
 
 def test_an_unknown_run_cannot_be_watched(unused_service: Service):
-    assert unused_service.client.post("/api/viewer-sessions", json={"run_id": "nope"}).status_code == 404
+    assert (
+        unused_service.client.post("/api/viewer-sessions", json={"kind": "live", "run_id": "nope"}).status_code == 404
+    )
 
 
 def test_a_session_needs_a_run(unused_service: Service):
-    answer = unused_service.client.post("/api/viewer-sessions", json={})
-    assert (answer.status_code, problem_fields(answer)) == (422, ["run_id"])
+    answer = unused_service.client.post("/api/viewer-sessions", json={"kind": "live"})
+    assert (answer.status_code, problem_fields(answer)) == (422, ["live.run_id"])
 
 
 def test_without_a_viewer_host_a_session_says_how_to_start_one(service: Service):
     service.launch()
     held = service.claim()
     service.write_file(held, "policy-newest.pt", b"policy")
-    answer = service.client.post("/api/viewer-sessions", json={"run_id": held.run_id})
+    answer = service.client.post("/api/viewer-sessions", json={"kind": "live", "run_id": held.run_id})
     assert answer.status_code == 503
     assert "sldr viewer" in answer.json()["problems"][0]["message"]
 
@@ -249,3 +251,43 @@ def test_viser_itself_is_reached_through_the_proxy(service: Service):
     assert "<html" in page.text
     assert page.headers["content-encoding"] == "gzip"
     assert isinstance(first, bytes)
+
+
+def test_commands_and_states_pass_below_the_same_token(view: View):
+    control = View(view.session_id, view.url, f"{view.socket_url}/control", view.origin)
+    with dial(control) as socket:
+        socket.send('{"do": "pause"}')
+        assert socket.recv() == '{"do": "pause"}'
+
+
+@pytest.mark.parametrize(("origin", "token_end"), [(Origin("http://evil.example"), ""), (None, "x")])
+def test_commands_of_strangers_are_refused(view: View, origin: Origin | None, token_end: str):
+    control = View(view.session_id, view.url, f"{view.socket_url}{token_end}/control", origin or view.origin)
+    with pytest.raises(InvalidStatus) as refused:
+        dial(control, subprotocols=None)
+    assert refused.value.response.status_code == 403
+
+
+def test_the_request_is_kept_as_it_was_asked(service: Service):
+    with echo_server() as port:
+        view = open_session(service, port)
+    kept = viewer_sessions.get_session(service.database, view.session_id).request
+    assert kept == {"kind": "live", "policy": "newest", "episodes": 1, "beside": None}
+
+
+def test_a_policy_that_the_run_has_not_got_is_named(service: Service, view: View):
+    run_id = service.get(f"/api/viewer-sessions/{view.session_id}")["run_id"]
+    answer = service.client.post(
+        "/api/viewer-sessions", json={"kind": "live", "run_id": run_id, "policy": "policy-epoch-0007.pt"}
+    )
+    assert (answer.status_code, problem_fields(answer)) == (409, ["policy"])
+    assert "it has newest, policy-newest.pt" in answer.json()["problems"][0]["message"]
+
+
+def test_a_policy_of_another_task_cannot_stand_beside(service: Service, view: View):
+    run_id = service.get(f"/api/viewer-sessions/{view.session_id}")["run_id"]
+    [other] = service.launch(task="FetchSlide")
+    body = {"kind": "live", "run_id": run_id, "beside": {"run_id": other}}
+    answer = service.client.post("/api/viewer-sessions", json=body)
+    assert (answer.status_code, problem_fields(answer)) == (409, ["beside.run_id"])
+    assert f"Run {other} learns FetchSlide" in answer.json()["problems"][0]["message"]

@@ -12,7 +12,7 @@ from small_training import run, tiny_config
 from sldr_core.disk import MARGIN, check_room, explain_full_disk
 from sldr_core.errors import DiskTooFull
 from sldr_core.replay import replay_bytes
-from sldr_core.training.build import build_training
+from sldr_core.training.build import build_training, recorded_bytes
 from sldr_core.training.files import planned_sizes
 
 GB = 10**9
@@ -63,7 +63,9 @@ def test_no_file_of_a_run_becomes_larger_than_planned(phase: str, tmp_path: Path
     parts = build_training(config, tmp_path / "planned", [])
     learners = [parts.agent.state_dict(), *([parts.inverse.state_dict()] if parts.inverse else [])]
 
-    planned = planned_sizes(config, parts.buffer.file_size, parts.envs.state(), learners)
+    recorded = recorded_bytes(parts.envs, parts.streams)
+
+    planned = planned_sizes(config, parts.buffer.file_size, recorded, parts.envs.state(), learners)
 
     # Names and the archive around the numbers weigh more than the tiniest nets; real ones are a hundred times larger.
     archive = 100_000

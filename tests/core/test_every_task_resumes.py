@@ -8,6 +8,7 @@ import pytest
 from small_training import StoppingRecorder, assert_same_training, run, save_untrained_model
 
 from sldr_core.config import LOCOMOTION_METHOD, LOCOMOTION_TASKS, TASKS, Phase
+from sldr_core.episodes import episodes_file, read_episodes
 from sldr_core.presets import Settings, locomotion_tasks, make_config
 from sldr_core.training import train
 
@@ -52,3 +53,6 @@ def test_a_training_of_the_task_goes_on_to_the_same_bits(task: str, phase: Phase
     run(config, tmp_path / "parts", models)
 
     assert_same_training(tmp_path / "parts", tmp_path / "whole")
+    recorded = tmp_path / "whole" / episodes_file(1)
+    assert (tmp_path / "parts" / recorded.name).read_bytes() == recorded.read_bytes()
+    assert [episode.resimulates for episode in read_episodes(recorded).episodes] == [True, True]

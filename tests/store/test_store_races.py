@@ -26,8 +26,8 @@ def test_two_launches_at_once_share_one_locomotion_run(db: Database) -> None:
     for threads in range(1, ROUNDS + 1):
         at_once(*[partial(launch, db, with_sldr("FetchPush", seed, threads)) for seed in range(2)])
 
-    assert list_runs(db, RunFilter(phase="manipulation"), 1).total == 2 * ROUNDS
-    assert list_runs(db, RunFilter(phase="locomotion"), 1).total == ROUNDS
+    assert list_runs(db, RunFilter(phases=["manipulation"]), 1).total == 2 * ROUNDS
+    assert list_runs(db, RunFilter(phases=["locomotion"]), 1).total == ROUNDS
 
 
 def test_a_run_starts_when_both_that_it_needs_end_at_once(db: Database) -> None:

@@ -14,12 +14,6 @@ def test_a_second_has_as_many_steps_as_the_speed_says(speed, steps):
     assert sum(playback.advance(1 / 30) for _ in range(30)) == pytest.approx(steps, abs=1)
 
 
-def test_a_paused_view_stands_still():
-    playback = Playback()
-    playback.is_paused = True
-    assert playback.advance(5.0) == 0
-
-
 def test_time_lost_in_a_stall_is_not_hurried_through():
     playback = Playback()
     assert playback.advance(60.0) == MAX_STEPS

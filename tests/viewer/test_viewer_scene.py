@@ -14,12 +14,10 @@ import viser
 from trimesh.visual import TextureVisuals
 from trimesh.visual.material import PBRMaterial
 
-from sldr_core.config import find_task
 from sldr_core.envs import make_envs
-from worker.viewer.camera import find_camera
 from worker.viewer.dress import dress, geom_rgba, is_visible
 from worker.viewer.page import open_page
-from worker.viewer.scene import Kinematics, Poses, SceneView
+from worker.viewer.scene import Kinematics, Look, Poses, SceneView
 from worker.viewer.shapes import geom_mesh, linear_from_srgb
 
 SHAPES = """
@@ -51,7 +49,7 @@ HALF_SIZES = {
 
 @pytest.fixture(scope="module")
 def server() -> Iterator[viser.ViserServer]:
-    server = open_page(find_camera(find_task("FetchPush"), "manipulation"))
+    server = open_page()
     yield server
     server.stop()
 
@@ -146,7 +144,7 @@ def test_shown_poses_equal_mujoco_s(server):
 
 def test_two_scenes_on_one_page_do_not_meet(server, shapes):
     one = SceneView(server, shapes, prefix="/one")
-    ghost = SceneView(server, shapes, prefix="/ghost", opacity=0.3)
+    ghost = SceneView(server, shapes, prefix="/ghost", look=Look(opacity=0.3))
     assert not {node.name for node in one.geom_nodes.values()} & {node.name for node in ghost.geom_nodes.values()}
     assert all(node.name.startswith("/ghost/") for node in ghost.geom_nodes.values())
 
@@ -161,11 +159,16 @@ def test_a_pose_between_two_takes_the_short_way_round():
 
 def test_the_goal_turns_green_when_reached(server):
     view = SceneView(server, make_envs("FetchPush").model, prefix="/goal")
-    assert view._goal is not None
-    red = tuple(view._goal.color)
-    view.show_goal((1.0, 2.0, 3.0), reached=True)
-    assert tuple(view._goal.position) == (1.0, 2.0, 3.0)
-    assert tuple(view._goal.color) != red
+    [(goal, red)] = view._goals
+    view.show_goals((1.0, 2.0, 3.0), reached=True)
+    assert tuple(goal.position) == (1.0, 2.0, 3.0)
+    assert tuple(goal.color) != red
+
+
+def test_of_a_demonstration_only_the_objects_are_drawn(server):
+    model = make_envs("FetchPush", phase="locomotion").model
+    ghost = SceneView(server, model, prefix="/objects", look=Look(objects_only=True))
+    assert {model.body(model.geom_bodyid[geom]).name for geom in ghost.geom_nodes} == {"object0"}
 
 
 def test_the_page_listens_on_this_machine_alone_and_opens_no_tunnel(server):

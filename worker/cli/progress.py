@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 
 from rich.console import Console
@@ -10,6 +10,7 @@ from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn
 from rich.table import Column
 
 from sldr_core.config import TrainConfig
+from sldr_core.episodes import RecordedTest
 from sldr_core.records import Step
 from sldr_core.training.recorder import Recorder, StopReason
 
@@ -69,6 +70,10 @@ class ShownRecorder:
     def save_file(self, name: str, kind: str, write: Callable[[Path], None]) -> Path:
         """Keep a file."""
         return self._recorder.save_file(name, kind, write)
+
+    def record_episodes(self, test: RecordedTest, kept_epochs: Collection[int]) -> None:
+        """Keep the first episodes of a test."""
+        self._recorder.record_episodes(test, kept_epochs)
 
     def stop_requested(self) -> StopReason | None:
         """Tell whether the training should end now."""

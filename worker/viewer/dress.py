@@ -8,9 +8,6 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-GOAL_SITE = "target0"
-"""The site that marks the goal, or the first of several: `target0`, `target1`, ..."""
-
 GOAL_RGBA = (0.86, 0.03, 0.03, 0.72)
 """Translucent red."""
 
@@ -65,7 +62,7 @@ def dress(model: mujoco.MjModel) -> mujoco.MjModel:
             continue
         if dressed.geom_type[geom] == mujoco.mjtGeom.mjGEOM_PLANE:
             dressed.mat_rgba[material] = FLOOR_RGBA
-        elif cube_maps.size and _is_object(dressed, geom) and _is_plain(dressed, material):
+        elif cube_maps.size and is_object(dressed, geom) and _is_plain(dressed, material):
             dressed.mat_texid[material, mujoco.mjtTextureRole.mjTEXROLE_RGB] = cube_maps[0]
             dressed.mat_rgba[material] = 1.0
     return dressed
@@ -128,7 +125,8 @@ def _leave_only_the_goal_marked(model: mujoco.MjModel) -> None:
             model.site_rgba[site, 3] = GOAL_RGBA[3]
 
 
-def _is_object(model: mujoco.MjModel, geom: int) -> bool:
+def is_object(model: mujoco.MjModel, geom: int) -> bool:
+    """Tell whether a geom is part of an object that is to be moved."""
     return model.body(int(model.geom_bodyid[geom])).name.startswith(_OBJECT_PREFIX)
 
 

@@ -1,4 +1,7 @@
-"""The viewer host: takes the 3D sessions that are asked for and serves each in a process of its own."""
+"""The viewer host: takes the 3D sessions that are asked for and serves each in a process of its own.
+
+The processes are forked from one that `keep_warm` has let import everything: a page opens in about a second.
+"""
 
 from __future__ import annotations
 
@@ -11,9 +14,9 @@ import time
 import uuid
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from multiprocessing import forkserver
 from multiprocessing.connection import Connection
-from multiprocessing.context import SpawnProcess
-from pathlib import Path
+from multiprocessing.context import ForkServerProcess
 
 import psutil
 
@@ -21,15 +24,19 @@ from backend.store import viewer_sessions
 from backend.store.database import Database
 from backend.store.errors import FilesUnavailable
 from backend.store.settings import Settings
+from backend.store.storage import FileStorage
 from sldr_core.errors import SldrError
-from worker.viewer.newest_policy import NewestPolicies
 from worker.viewer.reports import Broken, Job, Ready, Report, Watched
+from worker.viewer.session_files import Files, RunFiles, find_session_files
 
 ENDING_S = 3.0
 """A session process that was asked to end and has not by then is killed [s]."""
 
 ORPHANED = "The 3D viewer was started again; open the view once more."
 """What a session says whose host is no more."""
+
+WARM_MODULES = ["worker.viewer.warm"]
+"""What the process that sessions are forked from imports beforehand."""
 
 Target = Callable[[Job, Connection], None]
 """What a session process runs."""
@@ -55,10 +62,8 @@ class Limits:
 class Served:
     """Follow one session and its process."""
 
-    session_id: str
-    run_id: str
-    policy: Path
-    process: SpawnProcess
+    session: viewer_sessions.Session
+    process: ForkServerProcess
     pipe: Connection
     idle_since: float
     """When the last client left, or when it was started [s, monotonic]."""
@@ -79,11 +84,11 @@ class Host:
     host_id: str = field(default_factory=lambda: uuid.uuid4().hex[:12])
     served: dict[str, Served] = field(default_factory=dict)
     _beat_at: float = field(default=-1e9, init=False)
-    _policies: NewestPolicies = field(init=False)
+    _files: RunFiles = field(init=False)
 
     def __post_init__(self) -> None:
-        """Make ready to find policies."""
-        self._policies = NewestPolicies(self.database, self.settings)
+        """Make ready to find what sessions show."""
+        self._files = RunFiles(self.database, self.settings, FileStorage(self.settings))
 
     def begin(self) -> None:
         """Announce the host, and end what dead ones left open."""
@@ -112,28 +117,25 @@ class Host:
         if session is None:
             return
         try:
-            policy = self._policies.find(session.run_id)
+            files = find_session_files(self._files, session)
         except (SldrError, FilesUnavailable) as err:
             viewer_sessions.mark_ended(self.database, session.id, failed=True, message=str(err))
             return
-        if policy is None:
-            message = f"Run {session.run_id} has no policy to watch yet; wait for its first test."
-            viewer_sessions.mark_ended(self.database, session.id, failed=True, message=message)
-        elif not self._make_room():
+        if not self._make_room():
             message = f"All {self.limits.sessions} 3D views of this machine are being watched; close one and try again."
             viewer_sessions.mark_ended(self.database, session.id, failed=True, message=message)
         else:
-            self.served[session.id] = self._start(session, policy, now)
+            self.served[session.id] = self._start(session, files, now)
 
-    def _start(self, session: viewer_sessions.Session, policy: Path, now: float) -> Served:
-        context = multiprocessing.get_context("spawn")
+    def _start(self, session: viewer_sessions.Session, files: Files, now: float) -> Served:
+        context = multiprocessing.get_context("forkserver")
         ours, theirs = context.Pipe()
-        job = Job(session.id, policy, os.getpid())
+        job = Job(session.id, session.request, files)
         process = context.Process(target=self.target, args=(job, theirs), name=f"viewer-session-{session.id}")
         process.start()
         theirs.close()
         log.info("session %s of %s started as process %s", session.id, session.run_id, process.pid)
-        return Served(session.id, session.run_id, policy, process, ours, idle_since=now)
+        return Served(session, process, ours, idle_since=now)
 
     def _make_room(self) -> bool:
         """End the session that nobody has watched for longest if there is no room, and tell whether there is now."""
@@ -155,8 +157,8 @@ class Host:
 
     def _take_report(self, served: Served, report: Report, now: float) -> None:
         match report:
-            case Ready(port, message):
-                viewer_sessions.mark_ready(self.database, served.session_id, port, message)
+            case Ready(port, message, control_port):
+                viewer_sessions.mark_ready(self.database, served.session.id, port, message, control_port)
             case Watched(clients):
                 if served.clients or clients:
                     served.idle_since = now
@@ -179,9 +181,9 @@ class Host:
             self._end(self.served[session_id], "It was closed.")
 
     def _end(self, served: Served, message: str, failed: bool = False) -> None:
-        del self.served[served.session_id]
-        viewer_sessions.mark_ended(self.database, served.session_id, failed, message)
-        log.info("session %s ended: %s", served.session_id, message)
+        del self.served[served.session.id]
+        viewer_sessions.mark_ended(self.database, served.session.id, failed, message)
+        log.info("session %s ended: %s", served.session.id, message)
         served.process.terminate()
         served.process.join(ENDING_S)
         if served.process.is_alive():
@@ -197,14 +199,23 @@ class Host:
         viewer_sessions.end_orphaned_sessions(self.database, self.host_id, machine, _is_another_process, ORPHANED)
         for served in self.served.values():
             if served.clients:
-                viewer_sessions.touch(self.database, served.session_id)
-                self._renew_policy(served)
+                viewer_sessions.touch(self.database, served.session.id)
+                self._renew_files(served.session)
 
-    def _renew_policy(self, served: Served) -> None:
+    def _renew_files(self, session: viewer_sessions.Session) -> None:
+        """Bring followed policies again if another machine writes them; where they are at home this costs nothing."""
+        if self._files.storage.shared is None:
+            return
         try:
-            self._policies.renew(served.run_id, served.policy)
+            find_session_files(self._files, session)
         except (SldrError, FilesUnavailable) as err:
-            log.warning("session %s goes on with the policy it has: %s", served.session_id, err)
+            log.warning("session %s goes on with what it has: %s", session.id, err)
+
+
+def keep_warm() -> None:
+    """Start the process from which sessions are forked; it ends with this one, whichever way."""
+    multiprocessing.get_context("forkserver").set_forkserver_preload(WARM_MODULES)
+    forkserver.ensure_running()
 
 
 def _is_another_process(pid: int) -> bool:

@@ -25,8 +25,8 @@ LAMP_LIGHT = 1.4
 _LAMP_POSITION = (-4.0 * LAMP_DIRECTION[0], -4.0 * LAMP_DIRECTION[1], -4.0 * LAMP_DIRECTION[2])
 
 
-def open_page(camera: Camera, port: int = 0) -> viser.ViserServer:
-    """Start a Viser server on this machine alone; port 0 takes a free one.
+def open_page(port: int = 0) -> viser.ViserServer:
+    """Start a Viser server on this machine alone, lit and empty; port 0 takes a free one.
 
     The page is dark where its address says `?darkMode`.
     """
@@ -34,13 +34,20 @@ def open_page(camera: Camera, port: int = 0) -> viser.ViserServer:
         server = viser.ViserServer(host=HOST, port=port, verbose=False)
     _refuse_sharing(server)
     server.gui.configure_theme(show_logo=False, show_share_button=False, control_width="small")
+    # Our own page has the controls; what is left here is Viser's own, folded away.
+    server.gui.set_panel_label("View")
+    server.gui.main_panel.minimize()
     server.scene.set_up_direction("+z")
     _add_lights(server)
+    return server
+
+
+def look_through(server: viser.ViserServer, camera: Camera) -> None:
+    """Let those who open the page look through a camera, until they turn the view themselves."""
     server.initial_camera.position = camera.position
     server.initial_camera.look_at = np.asarray(camera.look_at)
     server.initial_camera.up = (0.0, 0.0, 1.0)
     server.initial_camera.fov = float(np.radians(camera.field_of_view))
-    return server
 
 
 def _add_lights(server: viser.ViserServer) -> None:

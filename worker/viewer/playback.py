@@ -17,7 +17,6 @@ class Playback:
 
     def __init__(self) -> None:
         self.speed = 1.0
-        self.is_paused = False
         self._due_s = 0.0
 
     @property
@@ -27,9 +26,11 @@ class Playback:
 
     def advance(self, wall_s: float) -> int:
         """Let time pass on the wall and return how many control steps it makes."""
-        if self.is_paused:
-            return 0
         self._due_s += wall_s * self.speed
         steps = int(self._due_s / CONTROL_S)
         self._due_s -= steps * CONTROL_S
         return min(steps, MAX_STEPS)
+
+    def rewind(self) -> None:
+        """Forget what was due."""
+        self._due_s = 0.0

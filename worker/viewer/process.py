@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import multiprocessing
 import os
 import signal
 import sys
@@ -20,13 +21,16 @@ log = logging.getLogger("sldr.viewer")
 
 def serve_session(job: Job, host: Connection) -> None:
     """Serve one session until the host ends this process; the entry point of the process."""
-    _end_with_host(job.host_pid)
+    _end_with_host()
     logging.basicConfig(stream=sys.stderr, level=logging.WARNING, format="%(asctime)s %(name)s %(message)s")
     try:
-        # torch and MuJoCo take seconds to import: here, not in the host, and not before the process is mortal.
+        # PyTorch takes seconds to import where it was not beforehand: only once the process is mortal.
+        import torch
+
         from worker.viewer.session import serve
 
-        serve(job.policy_path, host)
+        torch.set_num_threads(1)
+        serve(job, host)
     except BrokenPipeError:
         raise SystemExit(1) from None
     except SldrError as err:
@@ -36,10 +40,14 @@ def serve_session(job: Job, host: Connection) -> None:
         host.send(Broken(f"The 3D view broke down ({type(err).__name__}: {err})."))
 
 
-def _end_with_host(host_pid: int) -> None:
-    """Make this process gentle, deaf to Ctrl-C (the host ends it in order), and mortal with its host."""
+def _end_with_host() -> None:
+    """Make this process gentle, deaf to Ctrl-C (the host ends it in order), and mortal with its host.
+
+    Its parent is the process it was forked from, which ends with the host.
+    """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     os.nice(NICENESS)
     end_with_parent()
-    if os.getppid() != host_pid:
+    host = multiprocessing.parent_process()
+    if host is None or not host.is_alive():
         raise SystemExit(1)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 
 @dataclass(frozen=True)
@@ -11,10 +13,15 @@ class Job:
     """Ask a process to serve one 3D session."""
 
     session_id: str
-    policy_path: Path
-    """The policy file to show and to follow."""
-    host_pid: int
-    """The process that the session must not outlive."""
+    request: Mapping[str, Any]
+    """What to show: its `kind`, and what that kind can choose from."""
+    files: Mapping[str, tuple[Path, ...]]
+    """The files it is made of, on this machine, by what they are for; see `worker.viewer.session_files`."""
+
+    def file(self, role: str) -> Path:
+        """Return the one file of a role."""
+        (path,) = self.files[role]
+        return path
 
 
 @dataclass(frozen=True)
@@ -25,6 +32,8 @@ class Ready:
     """Where it is served on 127.0.0.1."""
     message: str
     """What it shows, in one sentence."""
+    control_port: int | None = None
+    """Where it takes commands, on 127.0.0.1."""
 
 
 @dataclass(frozen=True)

@@ -21,15 +21,23 @@ _SECTIONS = 32
 _GEOM = mujoco.mjtGeom
 
 
-def geom_mesh(model: mujoco.MjModel, geom: int, opacity: float = 1.0) -> trimesh.Trimesh:
+def geom_mesh(
+    model: mujoco.MjModel, geom: int, opacity: float = 1.0, tint: tuple[float, float, float] | None = None
+) -> trimesh.Trimesh:
     """Return a geom as a mesh in the geom's own frame.
+
+    Args:
+        model: the scene.
+        geom: which of its geoms.
+        opacity: 1 for solid.
+        tint: what takes the place of the geom's colour, as on a display; a texture shows through it.
 
     Raises:
         ValueError: the geom is of a kind that cannot be drawn.
     """
     kind = int(model.geom_type[geom])
     mesh = _mesh_asset(model, int(model.geom_dataid[geom])) if kind == _GEOM.mjGEOM_MESH else _primitive(model, geom)
-    material = _material(model, geom, opacity)
+    material = _material(model, geom, opacity, tint)
     uv = None
     texture = find_texture(model, geom)
     is_cube_map = texture is not None and model.tex_type[texture] == mujoco.mjtTexture.mjTEXTURE_CUBE
@@ -88,8 +96,10 @@ def _rows(array: NDArray, start: int, count: int) -> NDArray:
     return array[int(start) : int(start) + int(count)]
 
 
-def _material(model: mujoco.MjModel, geom: int, opacity: float) -> PBRMaterial:
+def _material(model: mujoco.MjModel, geom: int, opacity: float, tint: tuple[float, float, float] | None) -> PBRMaterial:
     rgba = geom_rgba(model, geom)
+    if tint is not None:
+        rgba[:3] = tint
     material = int(model.geom_matid[geom])
     gloss = float(model.mat_specular[material]) if material >= 0 else 0.0
     alpha = float(rgba[3]) * opacity

@@ -204,6 +204,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/metric-names": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Metrics
+         * @description List what runs have logged.
+         */
+        get: operations["list_metrics"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/queue": {
         parameters: {
             query?: never;
@@ -224,6 +244,46 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/run-groups": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Run Groups
+         * @description List the groups of the runs that pass the filters, with the quartiles of one metric over their runs.
+         */
+        get: operations["list_run_groups"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/run-groups.csv": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Download Run Groups
+         * @description Send the groups as CSV, in their order.
+         */
+        get: operations["download_run_groups"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/runs": {
         parameters: {
             query?: never;
@@ -236,6 +296,26 @@ export interface paths {
          * @description List runs, one page at a time; the newest come first unless another order is asked for.
          */
         get: operations["list_runs"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/runs.csv": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Download Runs
+         * @description Send the table as CSV, in its order and with its columns.
+         */
+        get: operations["download_runs"];
         put?: never;
         post?: never;
         delete?: never;
@@ -284,6 +364,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/runs/tags": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Change Run Tags
+         * @description Give runs tags and take others away.
+         */
+        post: operations["change_run_tags"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/runs/{run_id}": {
         parameters: {
             query?: never;
@@ -316,6 +416,46 @@ export interface paths {
          * @description Return a run's attempts, oldest first.
          */
         get: operations["list_run_attempts"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/runs/{run_id}/episodes": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Run Episodes
+         * @description List the recorded episodes of a run's tests.
+         */
+        get: operations["list_run_episodes"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/runs/{run_id}/episodes/{epoch}/{index}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Run Episode
+         * @description Return what happened in one recorded episode, and what the streams and critics said of it.
+         */
+        get: operations["get_run_episode"];
         put?: never;
         post?: never;
         delete?: never;
@@ -438,6 +578,26 @@ export interface paths {
          * @description Put a waiting run before another one, or at the end of the queue.
          */
         post: operations["move_run"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/runs/{run_id}/notes": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Set Run Notes
+         * @description Replace the notes of a run.
+         */
+        put: operations["set_run_notes"];
+        post?: never;
         delete?: never;
         options?: never;
         head?: never;
@@ -616,6 +776,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/tags": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Tags
+         * @description List every tag in use.
+         */
+        get: operations["list_tags"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/tasks/{task}/picture": {
         parameters: {
             query?: never;
@@ -678,6 +858,54 @@ export interface paths {
         options?: never;
         head?: never;
         patch?: never;
+        trace?: never;
+    };
+    "/api/views": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Views
+         * @description List every saved view, by name.
+         */
+        get: operations["list_views"];
+        put?: never;
+        /**
+         * Save View
+         * @description Keep a view under a name that no other has.
+         */
+        post: operations["save_view"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/views/{view_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * Delete View
+         * @description Forget a view.
+         */
+        delete: operations["delete_view"];
+        options?: never;
+        head?: never;
+        /**
+         * Change View
+         * @description Give a view another name, or let it show something else.
+         */
+        patch: operations["change_view"];
         trace?: never;
     };
     "/api/workers": {
@@ -1076,6 +1304,145 @@ export interface components {
             threshold: number;
         };
         /**
+         * Episode
+         * @description One recorded episode of a test.
+         */
+        Episode: {
+            /** Attempt */
+            attempt: number;
+            /**
+             * Epoch
+             * @description Epochs trained when the test was held.
+             */
+            epoch: number;
+            /**
+             * File
+             * @description The run's file that holds it.
+             */
+            file: string;
+            /**
+             * Index
+             * @description Its number in the test, from 0.
+             */
+            index: number;
+            /**
+             * Length
+             * @description Control steps.
+             */
+            length: number;
+            /**
+             * Resimulates
+             * @description Whether start and actions alone gave the same states again, bit for bit.
+             */
+            resimulates: boolean;
+            /**
+             * Success
+             * @description Whether the goal is reached at the last step.
+             */
+            success: boolean;
+            /**
+             * Tag
+             * @description `success`, or what went wrong.
+             * @enum {string}
+             */
+            tag: "success" | "never_touched" | "dropped" | "overshot" | "too_slow" | "other";
+            /**
+             * Task Return
+             * @description Sum of the task's rewards.
+             */
+            task_return: number;
+            /**
+             * Worst Q
+             * @description Least SLDR reward of any part; null without SLDR.
+             */
+            worst_q: number | null;
+            /**
+             * Worst Q Step
+             * @description The step it was given for, from 0.
+             */
+            worst_q_step: number | null;
+        };
+        /**
+         * EpisodeList
+         * @description A piece of a run's list of recorded episodes.
+         */
+        EpisodeList: {
+            /** Episodes */
+            episodes: components["schemas"]["Episode"][];
+            /**
+             * Epochs
+             * @description Epochs with recorded episodes, whatever the filter.
+             */
+            epochs: number[];
+            /**
+             * Total
+             * @description Episodes that the filter lets through.
+             */
+            total: number;
+        };
+        /**
+         * EpisodeTimelines
+         * @description What happened in an episode, in columns: of length + 1 moments, and of the length steps between them.
+         */
+        EpisodeTimelines: {
+            /**
+             * Angle
+             * @description Angle from the goal [rad], by moment; null without a rotation.
+             */
+            angle: (number | null)[] | null;
+            /**
+             * Contact
+             * @description Whether the robot touches each object, by moment.
+             */
+            contact: {
+                [key: string]: boolean[];
+            };
+            /**
+             * Distance
+             * @description Largest distance of an object from its goal [m], by moment.
+             */
+            distance: (number | null)[];
+            /**
+             * Env Steps
+             * @description Control steps of training episodes when the test was held.
+             */
+            env_steps: number;
+            episode: components["schemas"]["Episode"];
+            /**
+             * Induced
+             * @description Action that each part was made to do, by step.
+             */
+            induced: {
+                [key: string]: (number | null)[][];
+            };
+            /**
+             * Rewards
+             * @description Reward of each stream, by step.
+             */
+            rewards: {
+                [key: string]: (number | null)[];
+            };
+            /**
+             * Success
+             * @description Whether the goal is reached, by moment.
+             */
+            success: boolean[];
+            /**
+             * Values
+             * @description Q of each stream's critic, by step.
+             */
+            values: {
+                [key: string]: (number | null)[];
+            };
+            /**
+             * Wanted
+             * @description Action that each part wanted, by step.
+             */
+            wanted: {
+                [key: string]: (number | null)[][];
+            };
+        };
+        /**
          * Group
          * @description Runs that are the same but for their task and seed.
          */
@@ -1389,14 +1756,6 @@ export interface components {
             wall_seconds: number[];
         };
         /**
-         * MetricNames
-         * @description What can be compared.
-         */
-        MetricNames: {
-            /** Metrics */
-            metrics: string[];
-        };
-        /**
          * Move
          * @description A new place for a run that waits.
          */
@@ -1406,6 +1765,27 @@ export interface components {
              * @description The waiting run that it shall start before; null for the end.
              */
             before: string | null;
+        };
+        /**
+         * NewView
+         * @description A view of the runs table to be kept for everyone.
+         */
+        NewView: {
+            /** Name */
+            name: string;
+            /**
+             * Search
+             * @description The page's search string, without the question mark.
+             */
+            search: string;
+        };
+        /**
+         * Notes
+         * @description What people write about a run, as plain text.
+         */
+        Notes: {
+            /** Notes */
+            notes: string;
         };
         /**
          * OverallScore
@@ -1723,6 +2103,11 @@ export interface components {
              */
             needs: string[];
             /**
+             * Notes
+             * @description What people wrote about it, as plain text.
+             */
+            notes: string;
+            /**
              * Pause Requested
              * @description It will pause; its worker has not paused it yet.
              */
@@ -1747,9 +2132,19 @@ export interface components {
             reason: string | null;
             /** Seed */
             seed: number;
+            /**
+             * Settings Hash
+             * @description Equal for runs that differ in nothing but the seed.
+             */
+            settings_hash: string;
             /** Started At */
             started_at: string | null;
             state: components["schemas"]["RunState"];
+            /**
+             * Tags
+             * @description What people call it, in the order of the alphabet.
+             */
+            tags: string[];
             /** Task */
             task: string;
         };
@@ -1809,6 +2204,45 @@ export interface components {
             files: components["schemas"]["RunFile"][];
         };
         /**
+         * RunGroup
+         * @description Runs that share what they are grouped by.
+         */
+        RunGroup: {
+            /** Keys */
+            keys: {
+                [key: string]: string;
+            };
+            /** Runs */
+            runs: number;
+            /**
+             * Seeds
+             * @description Each once, in their order.
+             */
+            seeds: number[];
+            /** @description Of the metric asked for; null if no run has logged it. */
+            spread: components["schemas"]["Spread"] | null;
+            /**
+             * States
+             * @description Runs in each state that occurs.
+             */
+            states: {
+                [key: string]: number;
+            };
+        };
+        /**
+         * RunGroups
+         * @description The groups of the runs that pass a filter, in the order asked for.
+         */
+        RunGroups: {
+            /** Groups */
+            groups: components["schemas"]["RunGroup"][];
+            /**
+             * Total
+             * @description Runs in all groups.
+             */
+            total: number;
+        };
+        /**
          * RunPage
          * @description One page of runs, in the order asked for.
          */
@@ -1819,6 +2253,11 @@ export interface components {
             runs: components["schemas"]["RunSummary"][];
             /** Total */
             total: number;
+            /**
+             * Values
+             * @description For each run, the values of the columns asked for; null where it has not logged the metric.
+             */
+            values: (number | null)[][];
         };
         /**
          * RunState
@@ -1894,11 +2333,46 @@ export interface components {
             reason: string | null;
             /** Seed */
             seed: number;
+            /**
+             * Settings Hash
+             * @description Equal for runs that differ in nothing but the seed.
+             */
+            settings_hash: string;
             /** Started At */
             started_at: string | null;
             state: components["schemas"]["RunState"];
+            /**
+             * Tags
+             * @description What people call it, in the order of the alphabet.
+             */
+            tags: string[];
             /** Task */
             task: string;
+        };
+        /**
+         * SavedView
+         * @description One saved view.
+         */
+        SavedView: {
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /** Id */
+            id: string;
+            /** Name */
+            name: string;
+            /** Search */
+            search: string;
+        };
+        /**
+         * SavedViews
+         * @description Every saved view, by name.
+         */
+        SavedViews: {
+            /** Views */
+            views: components["schemas"]["SavedView"][];
         };
         /**
          * SeedReach
@@ -1958,6 +2432,29 @@ export interface components {
              * @description As text, one a run; null where a run does not have it.
              */
             values: (string | null)[];
+        };
+        /**
+         * Spread
+         * @description The middle half of a group's values.
+         */
+        Spread: {
+            /**
+             * Lower
+             * @description First quartile.
+             */
+            lower: number;
+            /** Median */
+            median: number;
+            /**
+             * N
+             * @description Runs that have a value.
+             */
+            n: number;
+            /**
+             * Upper
+             * @description Third quartile.
+             */
+            upper: number;
         };
         /**
          * Standing
@@ -2333,6 +2830,36 @@ export interface components {
             title: string;
         };
         /**
+         * TagChange
+         * @description Tags to give to runs and to take from them: of all of them or, if one does not allow it, of none.
+         */
+        TagChange: {
+            /** Add */
+            add?: string[];
+            /** Remove */
+            remove?: string[];
+            /** Run Ids */
+            run_ids: string[];
+        };
+        /**
+         * TagCount
+         * @description One tag, and how many runs have it.
+         */
+        TagCount: {
+            /** Runs */
+            runs: number;
+            /** Tag */
+            tag: string;
+        };
+        /**
+         * Tags
+         * @description Every tag in use, in the order of the alphabet.
+         */
+        Tags: {
+            /** Tags */
+            tags: components["schemas"]["TagCount"][];
+        };
+        /**
          * Task
          * @description One task, for the launch form.
          */
@@ -2357,6 +2884,16 @@ export interface components {
             success_angle: number | null;
             /** Success Distance */
             success_distance: number | null;
+        };
+        /**
+         * ViewChange
+         * @description Another name or another search string for a view; what is left out or null stays.
+         */
+        ViewChange: {
+            /** Name */
+            name?: string | null;
+            /** Search */
+            search?: string | null;
         };
         /**
          * ViewerRequest
@@ -2483,6 +3020,22 @@ export interface components {
             /** Workers */
             workers: components["schemas"]["Worker"][];
         };
+        /**
+         * MetricNames
+         * @description What runs have logged: each can be a column.
+         */
+        backend__api__table_schemas__MetricNames: {
+            /** Names */
+            names: string[];
+        };
+        /**
+         * MetricNames
+         * @description What can be compared.
+         */
+        backend__comparison__records__MetricNames: {
+            /** Metrics */
+            metrics: string[];
+        };
     };
     responses: never;
     parameters: never;
@@ -2504,6 +3057,9 @@ export type CurveComparison = components['schemas']['CurveComparison'];
 export type CurveLoss = components['schemas']['CurveLoss'];
 export type Draining = components['schemas']['Draining'];
 export type Efficiency = components['schemas']['Efficiency'];
+export type Episode = components['schemas']['Episode'];
+export type EpisodeList = components['schemas']['EpisodeList'];
+export type EpisodeTimelines = components['schemas']['EpisodeTimelines'];
 export type Group = components['schemas']['Group'];
 export type GroupCurve = components['schemas']['GroupCurve'];
 export type Health = components['schemas']['Health'];
@@ -2518,8 +3074,9 @@ export type Method = components['schemas']['Method'];
 export type MethodPair = components['schemas']['MethodPair'];
 export type MethodSwitch = components['schemas']['MethodSwitch'];
 export type MetricBatch = components['schemas']['MetricBatch'];
-export type MetricNames = components['schemas']['MetricNames'];
 export type Move = components['schemas']['Move'];
+export type NewView = components['schemas']['NewView'];
+export type Notes = components['schemas']['Notes'];
 export type OverallScore = components['schemas']['OverallScore'];
 export type Panel = components['schemas']['Panel'];
 export type PlainTable = components['schemas']['PlainTable'];
@@ -2540,12 +3097,17 @@ export type RunEvent = components['schemas']['RunEvent'];
 export type RunEvents = components['schemas']['RunEvents'];
 export type RunFile = components['schemas']['RunFile'];
 export type RunFiles = components['schemas']['RunFiles'];
+export type RunGroup = components['schemas']['RunGroup'];
+export type RunGroups = components['schemas']['RunGroups'];
 export type RunPage = components['schemas']['RunPage'];
 export type RunState = components['schemas']['RunState'];
 export type RunSummary = components['schemas']['RunSummary'];
+export type SavedView = components['schemas']['SavedView'];
+export type SavedViews = components['schemas']['SavedViews'];
 export type SeedReach = components['schemas']['SeedReach'];
 export type SeedScore = components['schemas']['SeedScore'];
 export type Setting = components['schemas']['Setting'];
+export type Spread = components['schemas']['Spread'];
 export type Standing = components['schemas']['Standing'];
 export type Studies = components['schemas']['Studies'];
 export type StudyAddition = components['schemas']['StudyAddition'];
@@ -2565,13 +3127,19 @@ export type StudyTemplate = components['schemas']['StudyTemplate'];
 export type StudyTemplates = components['schemas']['StudyTemplates'];
 export type StudyVariant = components['schemas']['StudyVariant'];
 export type TableColumn = components['schemas']['TableColumn'];
+export type TagChange = components['schemas']['TagChange'];
+export type TagCount = components['schemas']['TagCount'];
+export type Tags = components['schemas']['Tags'];
 export type Task = components['schemas']['Task'];
+export type ViewChange = components['schemas']['ViewChange'];
 export type ViewerRequest = components['schemas']['ViewerRequest'];
 export type ViewerSession = components['schemas']['ViewerSession'];
 export type Words = components['schemas']['Words'];
 export type Worker = components['schemas']['Worker'];
 export type WorkerRun = components['schemas']['WorkerRun'];
 export type Workers = components['schemas']['Workers'];
+export type BackendApiTableSchemasMetricNames = components['schemas']['backend__api__table_schemas__MetricNames'];
+export type BackendComparisonRecordsMetricNames = components['schemas']['backend__comparison__records__MetricNames'];
 export type $defs = Record<string, never>;
 export interface operations {
     get_choices: {
@@ -2625,7 +3193,7 @@ export interface operations {
                 preset?: string[];
                 /** @description Ids of runs, to compare these only. */
                 run?: string[];
-                /** @description Id of a study, for its runs only. */
+                /** @description Id of a study: its runs only. */
                 study?: string | null;
                 metric?: string;
                 /** @description What curves are drawn over. */
@@ -2703,7 +3271,7 @@ export interface operations {
                 preset?: string[];
                 /** @description Ids of runs, to compare these only. */
                 run?: string[];
-                /** @description Id of a study, for its runs only. */
+                /** @description Id of a study: its runs only. */
                 study?: string | null;
                 metric?: string;
                 /** @description What curves are drawn over. */
@@ -2783,7 +3351,7 @@ export interface operations {
                 preset?: string[];
                 /** @description Ids of runs, to compare these only. */
                 run?: string[];
-                /** @description Id of a study, for its runs only. */
+                /** @description Id of a study: its runs only. */
                 study?: string | null;
                 metric?: string;
                 /** @description What curves are drawn over. */
@@ -2926,7 +3494,7 @@ export interface operations {
                 preset?: string[];
                 /** @description Ids of runs, to compare these only. */
                 run?: string[];
-                /** @description Id of a study, for its runs only. */
+                /** @description Id of a study: its runs only. */
                 study?: string | null;
                 metric?: string;
                 /** @description What curves are drawn over. */
@@ -3016,7 +3584,7 @@ export interface operations {
                 preset?: string[];
                 /** @description Ids of runs, to compare these only. */
                 run?: string[];
-                /** @description Id of a study, for its runs only. */
+                /** @description Id of a study: its runs only. */
                 study?: string | null;
             };
             header?: never;
@@ -3031,7 +3599,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["MetricNames"];
+                    "application/json": components["schemas"]["backend__comparison__records__MetricNames"];
                 };
             };
             /** @description It does not exist. */
@@ -3264,6 +3832,44 @@ export interface operations {
             };
         };
     };
+    list_metrics: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["backend__api__table_schemas__MetricNames"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
     get_queue: {
         parameters: {
             query?: {
@@ -3313,23 +3919,190 @@ export interface operations {
             };
         };
     };
-    list_runs: {
+    list_run_groups: {
         parameters: {
-            query?: {
-                state?: components["schemas"]["RunState"] | null;
-                task?: string | null;
-                method?: string | null;
-                phase?: ("locomotion" | "manipulation") | null;
-                /** @description Words that id, task, method, phase, preset or state hold. */
+            query: {
+                /** @description What the runs of a group share; `settings` is all but the seed. */
+                by: ("task" | "phase" | "method" | "preset" | "state" | "settings")[];
+                /** @description Metric whose spread is wanted, written as a column. */
+                metric?: string;
+                sort?: "launched" | "task" | "phase" | "method" | "preset" | "state" | "settings" | "runs" | "median";
+                descending?: boolean;
+                state?: components["schemas"]["RunState"][];
+                task?: string[];
+                method?: string[];
+                phase?: ("locomotion" | "manipulation")[];
+                preset?: string[];
+                /** @description `settings_hash` of runs that differ in the seed alone. */
+                settings?: string | null;
+                /** @description Tags that a run must all have. */
+                tag?: string[];
+                /** @description Tags of which it must have one. */
+                any_tag?: string[];
+                /** @description Tags of which it must have none. */
+                no_tag?: string[];
+                seed_from?: number | null;
+                seed_to?: number | null;
+                success_from?: number | null;
+                success_to?: number | null;
+                /** @description Words that id, task, method, phase, preset, state, a tag or notes hold. */
                 search?: string | null;
                 /** @description The runs that a person hid, instead of all others. */
                 deleted?: boolean;
-                /** @description `success` is that of the newest test. */
-                sort?: "launched" | "task" | "state" | "success";
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RunGroups"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    download_run_groups: {
+        parameters: {
+            query: {
+                /** @description What the runs of a group share; `settings` is all but the seed. */
+                by: ("task" | "phase" | "method" | "preset" | "state" | "settings")[];
+                /** @description Metric whose spread is wanted, written as a column. */
+                metric?: string;
+                sort?: "launched" | "task" | "phase" | "method" | "preset" | "state" | "settings" | "runs" | "median";
                 descending?: boolean;
+                state?: components["schemas"]["RunState"][];
+                task?: string[];
+                method?: string[];
+                phase?: ("locomotion" | "manipulation")[];
+                preset?: string[];
+                /** @description `settings_hash` of runs that differ in the seed alone. */
+                settings?: string | null;
+                /** @description Tags that a run must all have. */
+                tag?: string[];
+                /** @description Tags of which it must have one. */
+                any_tag?: string[];
+                /** @description Tags of which it must have none. */
+                no_tag?: string[];
+                seed_from?: number | null;
+                seed_to?: number | null;
+                success_from?: number | null;
+                success_to?: number | null;
+                /** @description Words that id, task, method, phase, preset, state, a tag or notes hold. */
+                search?: string | null;
+                /** @description The runs that a person hid, instead of all others. */
+                deleted?: boolean;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description One row a run or group. */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/csv": unknown;
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    list_runs: {
+        parameters: {
+            query?: {
                 limit?: number;
-                /** @description `next_cursor` of the page before. */
+                /** @description `next_cursor` of the page before, to read on while runs change. */
                 cursor?: string | null;
+                /** @description Runs to leave out, to jump into a long table. */
+                offset?: number;
+                state?: components["schemas"]["RunState"][];
+                task?: string[];
+                method?: string[];
+                phase?: ("locomotion" | "manipulation")[];
+                preset?: string[];
+                /** @description `settings_hash` of runs that differ in the seed alone. */
+                settings?: string | null;
+                /** @description Tags that a run must all have. */
+                tag?: string[];
+                /** @description Tags of which it must have one. */
+                any_tag?: string[];
+                /** @description Tags of which it must have none. */
+                no_tag?: string[];
+                seed_from?: number | null;
+                seed_to?: number | null;
+                success_from?: number | null;
+                success_to?: number | null;
+                /** @description Words that id, task, method, phase, preset, state, a tag or notes hold. */
+                search?: string | null;
+                /** @description The runs that a person hid, instead of all others. */
+                deleted?: boolean;
+                /** @description Metrics to show, such as `test/success_rate:last`, `critic/task/loss:best` or `a/b:mean5`. */
+                column?: string[];
+                /** @description `launched`, `task`, `phase`, `method`, `seed`, `preset`, `state`, `progress`, `success` (of the newest test), `best`, `speed`, `left`, `duration`, or a metric written as in `column`. */
+                sort?: string;
+                descending?: boolean;
             };
             header?: never;
             path?: never;
@@ -3344,6 +4117,80 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["RunPage"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    download_runs: {
+        parameters: {
+            query?: {
+                state?: components["schemas"]["RunState"][];
+                task?: string[];
+                method?: string[];
+                phase?: ("locomotion" | "manipulation")[];
+                preset?: string[];
+                /** @description `settings_hash` of runs that differ in the seed alone. */
+                settings?: string | null;
+                /** @description Tags that a run must all have. */
+                tag?: string[];
+                /** @description Tags of which it must have one. */
+                any_tag?: string[];
+                /** @description Tags of which it must have none. */
+                no_tag?: string[];
+                seed_from?: number | null;
+                seed_to?: number | null;
+                success_from?: number | null;
+                success_to?: number | null;
+                /** @description Words that id, task, method, phase, preset, state, a tag or notes hold. */
+                search?: string | null;
+                /** @description The runs that a person hid, instead of all others. */
+                deleted?: boolean;
+                /** @description Metrics to show, such as `test/success_rate:last`, `critic/task/loss:best` or `a/b:mean5`. */
+                column?: string[];
+                /** @description `launched`, `task`, `phase`, `method`, `seed`, `preset`, `state`, `progress`, `success` (of the newest test), `best`, `speed`, `left`, `duration`, or a metric written as in `column`. */
+                sort?: string;
+                descending?: boolean;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description One row a run or group. */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/csv": unknown;
                 };
             };
             /** @description A field or setting cannot work. */
@@ -3520,6 +4367,82 @@ export interface operations {
             };
         };
     };
+    change_run_tags: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["TagChange"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
     get_run: {
         parameters: {
             query?: never;
@@ -3596,6 +4519,135 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Attempts"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    list_run_episodes: {
+        parameters: {
+            query?: {
+                /** @description Only episodes that ended so. */
+                tag?: ("success" | "never_touched" | "dropped" | "overshot" | "too_slow" | "other") | null;
+                /** @description Only those of this test. */
+                epoch?: number | null;
+                /** @description Equal ones stand newest test first. */
+                sort?: "epoch" | "return" | "success" | "worst_q";
+                descending?: boolean;
+                limit?: number;
+                /** @description Rows to leave out. */
+                offset?: number;
+            };
+            header?: never;
+            path: {
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["EpisodeList"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    get_run_episode: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run_id: string;
+                epoch: number;
+                index: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["EpisodeTimelines"];
                 };
             };
             /** @description It does not exist. */
@@ -3995,6 +5047,84 @@ export interface operations {
             };
             /** @description Its state does not allow this. */
             409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    set_run_notes: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Notes"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -4832,6 +5962,44 @@ export interface operations {
             };
         };
     };
+    list_tags: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Tags"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
     get_task_picture: {
         parameters: {
             query?: never;
@@ -5064,6 +6232,285 @@ export interface operations {
             };
             /** @description It does not exist. */
             404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    list_views: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SavedViews"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    save_view: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewView"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SavedView"];
+                };
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    delete_view: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                view_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    change_view: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                view_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ViewChange"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SavedView"];
+                };
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
                 headers: {
                     [name: string]: unknown;
                 };

@@ -35,6 +35,10 @@ const SHAPES = {
   grip: 'M9 6h.01M15 6h.01M9 12h.01M15 12h.01M9 18h.01M15 18h.01',
   release: 'M7 11V8a5 5 0 0 1 9.6-2M5 11h14v9H5z',
   arrow: 'M5 12h14M13 6l6 6-6 6',
+  toStart: 'M6 5v14M18 6l-8 6 8 6z',
+  toEnd: 'M18 5v14M6 6l8 6-8 6z',
+  stepBack: 'M15 6l-7 6 7 6',
+  stepOn: 'M9 6l7 6-7 6',
 } as const;
 
 export type IconName = keyof typeof SHAPES;

@@ -13,8 +13,11 @@ export function startServer(): FakeServer {
     .on('GET /healthz', () => ({ body: { status: 'ok', version: '0', workers_alive: 1, viewer_alive: true } }))
     .on('GET /api/choices', () => ({ body: CHOICES }))
     .on('GET /api/defaults', () => ({ body: DEFAULTS }))
-    .on('GET /api/runs', () => ({ body: { runs: [], next_cursor: null, total: 0 } }))
     .on('GET /api/studies/templates', () => ({ body: { templates: [TEMPLATE] } }))
+    .on('GET /api/runs', () => ({ body: { runs: [], values: [], next_cursor: null, total: 0 } }))
+    .on('GET /api/tags', () => ({ body: { tags: [] } }))
+    .on('GET /api/views', () => ({ body: { views: [] } }))
+    .on('GET /api/metric-names', () => ({ body: { names: [] } }))
     .start();
 }
 

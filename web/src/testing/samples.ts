@@ -114,12 +114,15 @@ export const RUN: RunSummary = {
   gate_waived: false,
   priority: 0,
   deleted_at: null,
+  settings_hash: 'fedcba9876543210',
+  tags: [],
 };
 
 export const DETAIL: RunDetail = {
   ...RUN,
   config: { ...DEFAULTS, agent: { ...DEFAULTS.agent, gamma: 0.99 } },
   config_hash: '0123456789abcdef',
+  notes: '',
   locomotion_run_id: null,
   has_policy: false,
   has_recording: false,

@@ -32,8 +32,14 @@ class AllSeen implements IntersectionObserver {
 }
 
 globalThis.ResizeObserver = NoResizes;
+// Nothing is laid out, so that what shows only the rows in view has to be told of a view.
+Object.defineProperties(Element.prototype, {
+  clientHeight: { configurable: true, get: () => 700 },
+  clientWidth: { configurable: true, get: () => 1200 },
+});
 globalThis.IntersectionObserver = AllSeen;
 window.scrollTo = () => {};
+Element.prototype.scrollTo = () => {};
 Element.prototype.scrollIntoView = () => {};
 window.matchMedia = (query) => ({
   matches: false,

@@ -45,7 +45,8 @@ export function chartSections(names: readonly string[]): ChartSection[] {
   const sections = new Map<string, Map<string, Series[]>>();
   const shown = new Set(SUCCESS.map(({ metric }) => metric));
   for (const metric of [...names].sort()) {
-    if (shown.has(metric)) continue;
+    // How episodes ended is one stacked chart, among the episodes themselves.
+    if (shown.has(metric) || metric.startsWith('episodes/')) continue;
     const parts = metric.split('/');
     const section = parts.length > 1 ? (parts[0] ?? '') : 'other';
     const last = parts.at(-1) ?? metric;

@@ -1,16 +1,18 @@
 /** One 3D session: asked for, waited for, and closed when nobody looks any more. */
 import { useMutation, useQuery } from '@tanstack/react-query';
 import { useEffect } from 'react';
-import type { ViewerSession } from '@/client/schema.gen';
+import type { InspectorView, ViewerSession } from '@/client/schema.gen';
 import { client, unwrap } from '@/lib/api';
+import type { SceneRequest } from '../scene-choice';
 
-const STARTING_POLL_MS = 500; // [ms]
+const STARTING_POLL_MS = 250; // [ms]
 const READY_POLL_MS = 5_000; // [ms]
 
-/** Open, follow and close a 3D session of a run. */
-export function useViewerSession(runId: string) {
+/** Open, follow and close a 3D session. */
+export function useViewerSession() {
   const opening = useMutation({
-    mutationFn: () => unwrap(client.POST('/api/viewer-sessions', { body: { run_id: runId } })),
+    mutationFn: (request: SceneRequest | InspectorView) =>
+      unwrap(client.POST('/api/viewer-sessions', { body: request })),
   });
   const id = opening.data?.id;
   const following = useQuery({
@@ -35,7 +37,7 @@ export function useViewerSession(runId: string) {
     session,
     isOpening: opening.isPending,
     error: opening.error ?? following.error,
-    open: () => opening.mutate(),
+    open: opening.mutate,
     close: opening.reset,
   };
 }

@@ -1,16 +1,35 @@
-/** Watch the newest policy in 3D. */
-import { Button, Loader, useComputedColorScheme } from '@mantine/core';
+/** Look at a run in 3D: choose what to show, wait for it, and drive it. */
+import { Button, Loader } from '@mantine/core';
+import { useEffect, useRef } from 'react';
 import type { RunDetail } from '@/client/schema.gen';
-import { Icon } from '@/components/icon';
 import { SentencePanel } from '@/components/sentence-panel';
 import { sentence } from '@/lib/api';
 import { useViewerSession } from '../api/viewer-session';
-import classes from './run.module.css';
+import { readEpisode } from '../episodes/place';
+import { FIRST_CHOICE, type SceneChoice, sceneRequest } from '../scene-choice';
+import { SceneChoiceForm } from './scene-choice-form';
+import { SceneView } from './scene-view';
 
-export function ViewerTab({ run }: { run: RunDetail }) {
-  const scheme = useComputedColorScheme('light');
-  const { session, isOpening, error, open, close } = useViewerSession(run.id);
-  const again = <Button onClick={open}>Try again</Button>;
+export function ViewerTab({ run, episode }: { run: RunDetail; episode: string | undefined }) {
+  const { session, isOpening, error, open, close } = useViewerSession();
+  const asked = readEpisode(episode);
+  const choice = useRef<SceneChoice>({ ...FIRST_CHOICE, ...(asked && { kind: 'episode', ...asked }) });
+  const watch = (chosen: SceneChoice): void => {
+    choice.current = chosen;
+    open(sceneRequest(run.id, chosen));
+  };
+  // biome-ignore lint/correctness/useExhaustiveDependencies: an address that names an episode opens it, once
+  useEffect(() => {
+    if (asked !== undefined) watch(choice.current);
+  }, []);
+  const again = (
+    <>
+      <Button onClick={() => watch(choice.current)}>Try again</Button>
+      <Button variant="default" onClick={close}>
+        Choose something else
+      </Button>
+    </>
+  );
   if (error) {
     return (
       <SentencePanel urgent title="The 3D view cannot be shown" actions={again}>
@@ -19,10 +38,11 @@ export function ViewerTab({ run }: { run: RunDetail }) {
     );
   }
   if (session?.state === 'failed' || session?.state === 'ended') {
+    const hasFailed = session.state === 'failed';
     return (
       <SentencePanel
-        urgent={session.state === 'failed'}
-        title={session.state === 'failed' ? 'The 3D view failed' : 'The 3D view has ended'}
+        urgent={hasFailed}
+        title={hasFailed ? 'The 3D view failed' : 'The 3D view has ended'}
         actions={again}
       >
         {session.message}
@@ -30,36 +50,18 @@ export function ViewerTab({ run }: { run: RunDetail }) {
     );
   }
   if (session?.state === 'ready' && session.url !== null) {
-    return (
-      <section aria-label="3D view">
-        <div className={classes.viewerHead}>
-          <span className="faint">{session.message}</span>
-          <Button variant="default" size="compact-xs" onClick={close}>
-            Close
-          </Button>
-        </div>
-        <iframe
-          className={classes.viewer}
-          title="3D view of the newest policy"
-          src={scheme === 'dark' ? `${session.url}?darkMode` : session.url}
-          sandbox="allow-scripts allow-same-origin allow-downloads"
-          allow="fullscreen"
-        />
-      </section>
-    );
+    const { kind, epoch, index } = choice.current;
+    const recorded = kind === 'episode' ? { runId: run.id, epoch, number: index } : undefined;
+    return <SceneView url={session.url} message={session.message ?? ''} recorded={recorded} onClose={close} />;
   }
   if (session || isOpening) {
     return (
       <SentencePanel title="The 3D view is starting">
         <Loader size="sm" mt="sm" mx="auto" display="block" aria-hidden />
-        <p role="status">The newest policy is being loaded into its scene; this takes a few seconds.</p>
+        <p role="status">The scene is being built; this takes a second or two.</p>
       </SentencePanel>
     );
   }
-  return <Invitation run={run} onOpen={open} />;
-}
-
-function Invitation({ run, onOpen }: { run: RunDetail; onOpen: () => void }) {
   if (!run.has_policy) {
     return (
       <SentencePanel title="There is no policy to watch yet">
@@ -67,16 +69,5 @@ function Invitation({ run, onOpen }: { run: RunDetail; onOpen: () => void }) {
       </SentencePanel>
     );
   }
-  return (
-    <SentencePanel
-      title={run.phase === 'locomotion' ? 'See how the object moves itself' : 'See what the robot does'}
-      actions={
-        <Button size="md" onClick={onOpen} leftSection={<Icon name="cube" />}>
-          Watch the newest policy
-        </Button>
-      }
-    >
-      The newest policy acts live in the simulated scene, toward random goals.
-    </SentencePanel>
-  );
+  return <SceneChoiceForm run={run} first={choice.current} onWatch={watch} />;
 }
