@@ -604,6 +604,50 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/runs/{run_id}/thumbnail": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Run Thumbnail
+         * @description Send the end of an episode of a run's newest policy, as a small picture.
+         */
+        get: operations["get_run_thumbnail"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/runs/{run_id}/videos": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Videos
+         * @description List the videos of a run that were ordered, the newest first.
+         */
+        get: operations["list_videos"];
+        put?: never;
+        /**
+         * Order Video
+         * @description Order a video of an episode; one that is there or on its way is not made again, one that failed is.
+         */
+        post: operations["order_video"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/studies": {
         parameters: {
             query?: never;
@@ -827,7 +871,7 @@ export interface paths {
         put?: never;
         /**
          * Create Viewer Session
-         * @description Ask the viewer host to show the newest policy of a run.
+         * @description Ask the viewer host to show something of a run: see the kinds of views.
          */
         post: operations["create_viewer_session"];
         delete?: never;
@@ -1443,6 +1487,23 @@ export interface components {
             };
         };
         /**
+         * EpisodeView
+         * @description Watch an episode that was recorded in a test.
+         */
+        EpisodeView: {
+            /** Epoch */
+            epoch: number;
+            /** Index */
+            index: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "episode";
+            /** Run Id */
+            run_id: string;
+        };
+        /**
          * Group
          * @description Runs that are the same but for their task and seed.
          */
@@ -1575,6 +1636,19 @@ export interface components {
             tasks: number;
         };
         /**
+         * InspectorView
+         * @description Look at the demonstrations of a locomotion run's model.
+         */
+        InspectorView: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "inspector";
+            /** Run Id */
+            run_id: string;
+        };
+        /**
          * Launch
          * @description A request to train: one run per seed, with the locomotion run they need.
          */
@@ -1638,6 +1712,34 @@ export interface components {
             seed: number;
             /** Task */
             task: string;
+        };
+        /**
+         * LiveView
+         * @description Watch a policy act, toward random goals or goals that are dragged.
+         */
+        LiveView: {
+            /** @description A second policy of the same task and phase, beside the first, from the same start. */
+            beside?: components["schemas"]["PolicyChoice"] | null;
+            /**
+             * Episodes
+             * @description Episodes side by side.
+             * @default 1
+             * @enum {integer}
+             */
+            episodes: 1 | 4 | 9;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "live";
+            /**
+             * Policy
+             * @description `newest` follows the training; else the name of a file of the run.
+             * @default newest
+             */
+            policy: string;
+            /** Run Id */
+            run_id: string;
         };
         /**
          * LogTail
@@ -1893,6 +1995,20 @@ export interface components {
             seed: number;
             /** Task */
             task: string;
+        };
+        /**
+         * PolicyChoice
+         * @description A policy of another run, or another policy of the same.
+         */
+        PolicyChoice: {
+            /**
+             * Policy
+             * @description `newest` follows the training; else the name of a file of the run.
+             * @default newest
+             */
+            policy: string;
+            /** Run Id */
+            run_id: string;
         };
         /**
          * PresetSummary
@@ -2886,6 +3002,111 @@ export interface components {
             success_distance: number | null;
         };
         /**
+         * TimeMachineView
+         * @description Watch the episode from one start toward one goal under every policy that was kept while training.
+         */
+        TimeMachineView: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "time-machine";
+            /** Run Id */
+            run_id: string;
+        };
+        /**
+         * Video
+         * @description A video: poll it until it is done, then play its url.
+         */
+        Video: {
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /**
+             * Epoch
+             * @description The test whose episode it shows; null: one of the newest policy then.
+             */
+            epoch: number | null;
+            /** Height */
+            height: number;
+            /** Id */
+            id: string;
+            /**
+             * Name
+             * @description Its name among the run's files.
+             */
+            name: string;
+            /**
+             * Number
+             * @description Which episode of the test; without a test, the seed of start and goal.
+             */
+            number: number;
+            /**
+             * Reason
+             * @description Why it failed, in one sentence.
+             */
+            reason: string | null;
+            /** Run Id */
+            run_id: string;
+            /**
+             * State
+             * @enum {string}
+             */
+            state: "queued" | "running" | "done" | "failed";
+            /**
+             * Url
+             * @description Path of the file, below this server, once it is done.
+             */
+            url: string | null;
+            /** Width */
+            width: number;
+        };
+        /**
+         * VideoOrder
+         * @description A request for a video of an episode.
+         */
+        VideoOrder: {
+            /**
+             * Epoch
+             * @description The test whose episode it shows; left out: the newest policy makes one.
+             */
+            epoch?: number | null;
+            /**
+             * Format
+             * @default mp4
+             * @enum {string}
+             */
+            format: "mp4" | "webm";
+            /**
+             * Height
+             * @description [pixels]
+             * @default 480
+             */
+            height: number;
+            /**
+             * Number
+             * @description Which episode of the test; without a test, the seed of start and goal.
+             * @default 0
+             */
+            number: number;
+            /**
+             * Width
+             * @description [pixels]
+             * @default 640
+             */
+            width: number;
+        };
+        /**
+         * Videos
+         * @description The videos of a run, the newest first.
+         */
+        Videos: {
+            /** Videos */
+            videos: components["schemas"]["Video"][];
+        };
+        /**
          * ViewChange
          * @description Another name or another search string for a view; what is left out or null stays.
          */
@@ -2894,14 +3115,6 @@ export interface components {
             name?: string | null;
             /** Search */
             search?: string | null;
-        };
-        /**
-         * ViewerRequest
-         * @description A request to watch the newest policy of a run in 3D.
-         */
-        ViewerRequest: {
-            /** Run Id */
-            run_id: string;
         };
         /**
          * ViewerSession
@@ -3060,14 +3273,17 @@ export type Efficiency = components['schemas']['Efficiency'];
 export type Episode = components['schemas']['Episode'];
 export type EpisodeList = components['schemas']['EpisodeList'];
 export type EpisodeTimelines = components['schemas']['EpisodeTimelines'];
+export type EpisodeView = components['schemas']['EpisodeView'];
 export type Group = components['schemas']['Group'];
 export type GroupCurve = components['schemas']['GroupCurve'];
 export type Health = components['schemas']['Health'];
 export type Improvement = components['schemas']['Improvement'];
+export type InspectorView = components['schemas']['InspectorView'];
 export type Launch = components['schemas']['Launch'];
 export type LaunchPlan = components['schemas']['LaunchPlan'];
 export type LaunchResult = components['schemas']['LaunchResult'];
 export type LeftOut = components['schemas']['LeftOut'];
+export type LiveView = components['schemas']['LiveView'];
 export type LogTail = components['schemas']['LogTail'];
 export type Member = components['schemas']['Member'];
 export type Method = components['schemas']['Method'];
@@ -3083,6 +3299,7 @@ export type PlainTable = components['schemas']['PlainTable'];
 export type PlannedLocomotion = components['schemas']['PlannedLocomotion'];
 export type PlannedPlace = components['schemas']['PlannedPlace'];
 export type PlannedRun = components['schemas']['PlannedRun'];
+export type PolicyChoice = components['schemas']['PolicyChoice'];
 export type PresetSummary = components['schemas']['PresetSummary'];
 export type PriorityChange = components['schemas']['PriorityChange'];
 export type Problem = components['schemas']['Problem'];
@@ -3131,8 +3348,11 @@ export type TagChange = components['schemas']['TagChange'];
 export type TagCount = components['schemas']['TagCount'];
 export type Tags = components['schemas']['Tags'];
 export type Task = components['schemas']['Task'];
+export type TimeMachineView = components['schemas']['TimeMachineView'];
+export type Video = components['schemas']['Video'];
+export type VideoOrder = components['schemas']['VideoOrder'];
+export type Videos = components['schemas']['Videos'];
 export type ViewChange = components['schemas']['ViewChange'];
-export type ViewerRequest = components['schemas']['ViewerRequest'];
 export type ViewerSession = components['schemas']['ViewerSession'];
 export type Words = components['schemas']['Words'];
 export type Worker = components['schemas']['Worker'];
@@ -5161,6 +5381,209 @@ export interface operations {
             };
         };
     };
+    get_run_thumbnail: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "image/webp": unknown;
+                };
+            };
+            /** @description There is none yet; the picture of its task stands in for it. */
+            307: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    list_videos: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Videos"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    order_video: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["VideoOrder"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Video"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
     list_studies: {
         parameters: {
             query?: {
@@ -6067,7 +6490,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["ViewerRequest"];
+                "application/json": components["schemas"]["LiveView"] | components["schemas"]["EpisodeView"] | components["schemas"]["TimeMachineView"] | components["schemas"]["InspectorView"];
             };
         };
         responses: {
