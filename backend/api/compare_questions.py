@@ -13,7 +13,7 @@ from backend.figures.styles import Width
 from backend.store.compared_runs import RunChoice
 from sldr_core.config import Phase
 
-NAMES_AT_MOST = 500
+NAMES_AT_MOST = 200
 """Tasks, methods or runs named in one question."""
 
 LONGEST_NAME = 200

@@ -61,6 +61,12 @@ class ComparisonMemory:
         self._variants: dict[tuple[str, str], Variant] = {}
         self._answers: OrderedDict[str, Any] = OrderedDict()
 
+    @property
+    def size(self) -> tuple[int, int]:
+        """How many points of curves and how many answers are kept."""
+        with self._lock:
+            return self._points, len(self._answers)
+
     def curves(self, db: Database, runs: Sequence[ComparedRun], metric: str) -> KnownCurves:
         """Return one metric of runs, reading what is not known yet."""
         with self._lock:

@@ -24,6 +24,7 @@ COMMANDS = {
     "export": "Write what the store has of runs for other tools, such as Rerun.",
     "backup": "Copy all runs and their files to one place, while everything runs.",
     "restore": "Bring back what backup has copied.",
+    "export": "Draw figures of runs, or write runs for other trackers.",
     "list": "List tasks, methods or presets.",
 }
 
