@@ -145,7 +145,7 @@ def take(page: Page, picture: Picture, path: Path) -> None:
     if picture.part:
         page.get_by_label("Object", exact=True).select_option(label=picture.part)
     page.get_by_label("Step", exact=True).and_(page.get_by_role("slider")).fill(str(picture.step))
-    expect(page.get_by_label("Slice of Q").get_by_role("img")).to_be_visible()
+    expect(page.get_by_role("img", name="Q at this moment")).to_be_visible()
     close_toasts(page)
     page.screenshot(path=path, full_page=True, timeout=PATIENCE_MS)
     Image.open(path).convert("RGB").quantize(COLOURS).save(path, optimize=True)
