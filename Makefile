@@ -10,6 +10,8 @@ PORT ?= 8000
 PARTS ?= all
 # Options of `make chaos`; `make chaos CHAOS=--help` lists them.
 CHAOS ?=
+# Locomotion models that `make pictures-3d` takes its pictures of.
+MODELS ?=
 # What the system packages are for: run, or test.
 purpose := run
 
@@ -17,7 +19,7 @@ PIP := .venv/bin/python -m pip --disable-pip-version-check --quiet
 WEB_SOURCES := $(shell find web/src web/public -type f -not -name '*.test.*' 2>/dev/null)
 CLIENT := web/src/client/schema.gen.ts
 
-.PHONY: run test chaos setup web client lock format clean help system
+.PHONY: run test chaos setup web client pictures-3d lock format clean help system
 
 run: setup ## Set everything up and serve the page; HOST and PORT say where
 	@exec .venv/bin/sldr serve --host $(HOST) --port $(PORT)
@@ -37,6 +39,9 @@ client: .make/package web/node_modules/.package-lock.json ## Generate the page's
 	@cd web && npm run --silent client
 	@echo "$(CLIENT) fits the API"
 
+pictures-3d: setup ## Make the inspector's pictures in docs/pictures; MODELS names locomotion.pt files
+	@.venv/bin/python tests/pictures/inspector.py $(MODELS)
+
 lock: ## Ask pip again for the exact version of everything
 	@.ci/lock.sh
 
@@ -49,7 +54,7 @@ clean: ## Remove everything that was made; trained runs stay
 	rm -rf .make .venv build web/dist web/node_modules web/client-generator/node_modules *.egg-info
 
 help: ## List what can be made
-	@sed -nE 's/^([a-z]+):.*## (.*)/  make \1\t\2/p' Makefile | expand -t 16
+	@sed -nE 's/^([a-z0-9-]+):.*## (.*)/  make \1\t\2/p' Makefile | expand -t 16
 
 test: purpose := test
 system:

@@ -173,3 +173,9 @@ def test_chains_and_objects_in_the_hand_are_inspected_too(server, task):
         assert not np.array_equal(show.report()["goal"], goal)
     ask(show, "look", at="grips", on=True)
     ask(show, "open", seed=1, number=1)
+
+
+def test_a_number_of_another_seed_than_the_fan_s_is_drawn_anew(collected):
+    ask(collected, "open", seed=5, number=1)
+    state = collected.state()
+    assert (state["origin"], state["exact"], state["seed"]) == ("drawn", None, 5)

@@ -51,10 +51,10 @@ def test_a_finer_grid_keeps_the_points_and_goes_straight_between_them():
     assert fine.tolist() == [[0, 1, 2], [2, 3, 4], [4, 5, 6]]
 
 
-def test_a_picture_has_its_last_row_on_top():
+def test_a_picture_has_its_first_row_on_top_where_viser_has_the_least_y():
     picture = picture_of(np.array([[0.0, 0.0], [0.0, 1.0]]))
-    assert picture[0, -1, :3].tolist() == SCALE[-1].tolist()
-    assert picture[-1, 0, :3].tolist() == SCALE[0].tolist()
+    assert picture[-1, -1, :3].tolist() == SCALE[-1].tolist()
+    assert picture[0, 0, :3].tolist() == SCALE[0].tolist()
 
 
 @pytest.mark.parametrize(("axes", "normal"), [((0, 1), (0, 0, 1)), ((0, 2), (0, -1, 0)), ((1, 2), (1, 0, 0))])
