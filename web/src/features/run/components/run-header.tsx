@@ -15,6 +15,7 @@ import { newestRecording, openCommand } from '../recordings';
 import classes from './run.module.css';
 import { RunActions } from './run-actions';
 import { RunFigures } from './run-figures';
+import { RunLabels } from './run-labels';
 
 export function RunHeader({ run, updatedAt }: { run: RunDetail; updatedAt: number }) {
   return (
@@ -49,13 +50,14 @@ export function RunHeader({ run, updatedAt }: { run: RunDetail; updatedAt: numbe
           it back as it was.
         </p>
       )}
-      <Notes run={run} />
+      <Standing run={run} />
+      <RunLabels run={run} />
       <RunFigures run={run} />
     </header>
   );
 }
 
-function Notes({ run }: { run: RunDetail }) {
+function Standing({ run }: { run: RunDetail }) {
   return (
     <p className={classes.notes}>
       <span className="faint">

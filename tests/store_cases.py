@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from threading import Barrier
+
 from sqlalchemy import update
 
 from backend.store.claims import Claim
@@ -50,3 +54,15 @@ def step(cycle: int) -> Step:
     return Step(
         cycle=cycle, epoch=1, env_steps=200 * cycle, episodes=4 * cycle, updates=4 * cycle, wall_seconds=0.5 * cycle
     )
+
+
+def at_once(*calls: Callable[[], object]) -> list[object]:
+    """Make calls in threads that begin together; return what they returned."""
+    barrier = Barrier(len(calls))
+
+    def begin(call: Callable[[], object]) -> object:
+        barrier.wait()
+        return call()
+
+    with ThreadPoolExecutor(len(calls)) as threads:
+        return [future.result() for future in [threads.submit(begin, call) for call in calls]]
