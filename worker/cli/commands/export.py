@@ -1,4 +1,4 @@
-"""`sldr export`: figures, the bundle behind them, and runs for other trackers."""
+"""`sldr export`: figures, the bundle behind them, and runs for other tools."""
 
 from __future__ import annotations
 
@@ -83,7 +83,8 @@ View = tyro.conf.OmitArgPrefixes[Shown]
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Run the command."""
+    """Run the command; `--rerun RUN OUT` is short for `rerun RUN OUT`."""
+    given = ["rerun", *arguments[1:]] if arguments[:1] == ["--rerun"] else list(arguments)
     kinds: dict[str, Callable[..., int]] = {
         "figure": figure,
         "bundle": bundle,
@@ -91,7 +92,7 @@ def main(arguments: Sequence[str]) -> int:
         "tensorboard": tensorboard,
         "mlflow": mlflow,
     }
-    return tyro.extras.subcommand_cli_from_dict(kinds, prog="sldr export", args=list(arguments))
+    return tyro.extras.subcommand_cli_from_dict(kinds, prog="sldr export", args=given)
 
 
 def figure(out: Path, runs: Runs, view: View, kind: Literal["curves", "best"] = "curves") -> int:
