@@ -11,6 +11,7 @@ import os
 import socket
 import sys
 import tempfile
+from collections.abc import Sequence
 from pathlib import Path
 
 import httpx
@@ -63,6 +64,7 @@ def main() -> None:
     """Fill, serve, visit, save."""
     parser = argparse.ArgumentParser(description="Take a picture of every page, light and dark.")
     parser.add_argument("directory", type=Path, help="where the pictures go")
+    parser.add_argument("--only", choices=PAGES, help="the one page to take")
     parser.add_argument("--no-tasks", dest="with_tasks", action="store_false", help="draw no pictures of tasks")
     arguments = parser.parse_args()
     directory: Path = arguments.directory
@@ -76,7 +78,7 @@ def main() -> None:
         path = os.environ.get("SLDR_CHROMIUM", "/usr/bin/chromium")
         browser = playwright.chromium.launch(executable_path=path, args=["--no-sandbox", "--disable-dev-shm-usage"])
         with serving(home, _free_port(), PAGE_AND_API) as address:
-            _visit_all(browser, address, database, directory)
+            _visit_all(browser, address, database, directory, [arguments.only] if arguments.only else list(PAGES))
         browser.close()
         database.close()
 
@@ -99,7 +101,7 @@ def _share_of(claimed: Claim) -> float:
     return 0.55 if config.seed == SEEDS[-1] else WHOLE
 
 
-def _visit_all(browser: Browser, address: str, database: Database, directory: Path) -> None:
+def _visit_all(browser: Browser, address: str, database: Database, directory: Path, wanted: Sequence[str]) -> None:
     def get(path: str) -> dict[str, list[dict[str, str]]]:
         return httpx.get(f"{address}{path}", timeout=30.0).json()
 
@@ -111,7 +113,8 @@ def _visit_all(browser: Browser, address: str, database: Database, directory: Pa
             viewport={"width": WINDOW[0], "height": WINDOW[1]},
             color_scheme=scheme,  # type: ignore[arg-type]
         )
-        for name, (path, drawn) in PAGES.items():
+        for name in wanted:
+            path, drawn = PAGES[name]
             for worker in list_workers(database):
                 beat(database, worker.id, memory_used=41 * 10**9)
             page.goto(address + path.format(**names))
