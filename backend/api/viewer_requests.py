@@ -49,5 +49,12 @@ class TimeMachineView(Strict):
     run_id: str
 
 
-ViewerRequest = Annotated[LiveView | EpisodeView | TimeMachineView, Field(discriminator="kind")]
+class InspectorView(Strict):
+    """Look at the demonstrations of a locomotion run's model."""
+
+    kind: Literal["inspector"]
+    run_id: str
+
+
+ViewerRequest = Annotated[LiveView | EpisodeView | TimeMachineView | InspectorView, Field(discriminator="kind")]
 """A request to watch something of a run in 3D."""

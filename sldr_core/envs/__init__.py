@@ -15,11 +15,11 @@ from sldr_core.config import PHASES, Phase, RewardKind, Robot, TaskSpec, Variant
 from sldr_core.envs.contacts import TouchSense
 from sldr_core.envs.envs import Envs, Observation
 from sldr_core.envs.families import EnvOrder, build_fetch_env, build_hand_env, build_stack_env, build_tuple_env
-from sldr_core.envs.parts import EnvParts
+from sldr_core.envs.parts import EnvParts, Start
 from sldr_core.envs.rewards import REWARDS
 from sldr_core.errors import InvalidConfig, UnknownName
 
-__all__ = ["Envs", "Observation", "TouchSense", "make_envs"]
+__all__ = ["Envs", "Observation", "Start", "TouchSense", "make_envs"]
 
 FAMILIES: dict[str, Callable[[EnvOrder], EnvParts]] = {
     "fetch": build_fetch_env,

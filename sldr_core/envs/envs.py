@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sldr_core.config import Phase, RewardKind, TaskSpec
-from sldr_core.envs.parts import EnvParts
+from sldr_core.envs.parts import EnvParts, Start
 from sldr_core.envs.rewards import REWARDS, Offsets, goal_gaps, goal_offsets, is_success, object_positions
 from sldr_core.envs.scenes.welds import SUBSTEPS
 from sldr_core.envs.simulation import Array, Ids
@@ -75,9 +76,20 @@ class Envs:
     def reset(self, ids: ArrayLike | None = None) -> Observation:
         """Start new episodes in simulations `ids` (all if None); the others are left as they are."""
         chosen = np.sort(self._ids(ids))
-        start = self._starts.draw([self._rngs[index] for index in chosen])
+        start = self.draw_starts([self._rngs[index] for index in chosen])
         self._goal[chosen] = start.goal
         self.simulation.reset(chosen, start.qpos, start.qvel)
+        return self.observe()
+
+    def draw_starts(self, rngs: Sequence[np.random.Generator]) -> Start:
+        """Draw starts and goals of at most `N` episodes, one from each generator, and start none of them."""
+        return self._starts.draw(rngs)
+
+    def begin(self, start: Start, rngs: Sequence[np.random.Generator]) -> Observation:
+        """Start episodes in all simulations from chosen starts `[N, ...]`; simulation `i` draws on from `rngs[i]`."""
+        self._rngs = list(rngs)
+        self.simulation.reset(self._ids(None), start.qpos, start.qvel)
+        self.set_goal(start.goal)
         return self.observe()
 
     def step(self, action: ArrayLike) -> Observation:

@@ -96,3 +96,25 @@ def quaternion_about(axis: NDArray[np.floating], angle: float) -> NDArray[np.flo
     """Return the unit quaternion `[4]`, w first, of a turn by `angle` [rad] about `axis` `[3]` of any length."""
     direction = axis / np.linalg.norm(axis)
     return np.array([np.cos(angle / 2.0), *(np.sin(angle / 2.0) * direction)])
+
+
+def quaternion_from_vector(vector: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Return the unit quaternions `[..., 4]`, w first, of rotation vectors [rad] `[..., 3]`."""
+    vector = np.asarray(vector, dtype=np.float64)
+    half = 0.5 * np.linalg.norm(vector, axis=-1, keepdims=True)
+    # sin(h) / h without the division at no turn; np.sinc has a pi in it.
+    return np.concatenate([np.cos(half), 0.5 * vector * np.sinc(half / np.pi)], axis=-1)
+
+
+def rotation_vector(quaternion: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Return the rotation vectors [rad] `[..., 3]`, no longer than pi, of unit quaternions `[..., 4]`, w first."""
+    quaternion = np.asarray(quaternion, dtype=np.float64)
+    shorter = np.where(quaternion[..., :1] < 0.0, -quaternion, quaternion)
+    sine = np.linalg.norm(shorter[..., 1:], axis=-1, keepdims=True)
+    angle = 2.0 * np.arctan2(sine, shorter[..., :1])
+    return shorter[..., 1:] * np.where(sine > 0.0, angle / np.where(sine > 0.0, sine, 1.0), 2.0)
+
+
+def turn_between(a: NDArray[np.floating], b: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Return the rotations, about the world's axes, that bring `a` to `b`, all unit quaternions `[..., 4]`."""
+    return multiply_quaternions(b, a * np.array([1.0, -1.0, -1.0, -1.0]))

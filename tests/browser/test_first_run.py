@@ -106,8 +106,8 @@ def test_the_rerun_file_is_offered(run_address: str, page: Page, tmp_path: Path)
     expect(page.locator(BADGE).first).to_have_text("succeeded", timeout=TRAINED_MS)
     page.get_by_role("tab", name="Files").click()
     with page.expect_download(timeout=SOON_MS) as download:
-        page.get_by_role("link", name=re.compile(r"curves-attempt-1\.rrd")).first.click()
-    saved = tmp_path / "curves.rrd"
+        page.get_by_role("link", name=re.compile(r"recording-attempt-1\.rrd")).first.click()
+    saved = tmp_path / "recording.rrd"
     download.value.save_as(saved)
     assert saved.read_bytes()[:4] == b"RRF2"
 

@@ -8,12 +8,14 @@ import signal
 import subprocess
 import sys
 import threading
+from collections.abc import Callable
 from pathlib import Path
 
 from backend.store.database import open_database
 from backend.store.errors import StoreUnavailable
 from backend.store.settings import Settings, load_settings
 from sldr_core.errors import SldrError
+from worker.media.host import MediaHost
 from worker.viewer.host import Host
 from worker.viewer.process import serve_session
 from worker.viewer.warming import keep_warm
@@ -55,21 +57,24 @@ def host_sessions(settings: Settings) -> None:
     database = open_database(settings)
     host = Host(database, settings, target=serve_session, is_warm=keep_warm().is_set)
     host.begin()
+    media = MediaHost(database, settings)
     pictures = _draw_pictures(settings.home)
     try:
         while not stop.is_set():
-            stop.wait(_round(host))
+            stop.wait(_round(host.tick, media.tick))
     finally:
         pictures.terminate()
         host.close()
+        media.close()
         pictures.wait()
         database.close()
 
 
-def _round(host: Host) -> float:
-    """Do one round, and return how long to wait for the next [s]."""
+def _round(*ticks: Callable[[], None]) -> float:
+    """Do one round of everything, and return how long to wait for the next [s]."""
     try:
-        host.tick()
+        for tick in ticks:
+            tick()
     except StoreUnavailable as err:
         log.warning("%s Trying again.", err)
         return STORE_RETRY_S

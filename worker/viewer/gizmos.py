@@ -27,7 +27,7 @@ class GoalGizmos:
         self._lock = threading.Lock()
         self._wished: NDArray[np.float64] | None = None
         self._goal = np.zeros(task.goal_size)
-        self._aside = np.asarray(TARGET_ASIDE) if _is_shown_aside(task) else np.zeros(3)
+        self._aside = np.asarray(TARGET_ASIDE) if is_shown_aside(task) else np.zeros(3)
         count = 1 if task.family in ("hand", "tuple") else task.goal_size // 3
         self._nodes = [self._add(server, index) for index in range(count)]
 
@@ -85,6 +85,6 @@ class GoalGizmos:
             self._goal = self._wished = goal
 
 
-def _is_shown_aside(task: TaskSpec) -> bool:
+def is_shown_aside(task: TaskSpec) -> bool:
     """Tell whether the target stands beside its goal, so as not to hide the object."""
     return isinstance(task.scene, HandScene) and task.scene.target_position == "ignore"

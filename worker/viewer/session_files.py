@@ -108,6 +108,10 @@ def _live(files: RunFiles, session: Session) -> Files:
     }
 
 
+def _inspector(files: RunFiles, session: Session) -> Files:
+    return {"locomotion": (files.file(session.run_id, LOCOMOTION_FILE),)}
+
+
 def _episode(files: RunFiles, session: Session) -> Files:
     return {
         "episodes": (files.file(session.run_id, episodes_file(session.request["epoch"])),),
@@ -126,6 +130,7 @@ FINDERS: dict[str, Callable[[RunFiles, Session], Files]] = {
     "live": _live,
     "episode": _episode,
     "time-machine": _time_machine,
+    "inspector": _inspector,
 }
 """What is brought for each kind of request."""
 

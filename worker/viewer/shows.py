@@ -27,6 +27,12 @@ def _live(server: viser.ViserServer, job: Job) -> Show:
     return open_live(server, job)
 
 
+def _inspector(server: viser.ViserServer, job: Job) -> Show:
+    from worker.viewer.inspector.show import open_inspector
+
+    return open_inspector(server, job)
+
+
 def _episode(server: viser.ViserServer, job: Job) -> Show:
     from worker.viewer.episode import open_episode
 
@@ -39,7 +45,12 @@ def _time_machine(server: viser.ViserServer, job: Job) -> Show:
     return open_time_machine(server, job)
 
 
-SHOWS: dict[str, Opener] = {"live": _live, "episode": _episode, "time-machine": _time_machine}
+SHOWS: dict[str, Opener] = {
+    "live": _live,
+    "episode": _episode,
+    "time-machine": _time_machine,
+    "inspector": _inspector,
+}
 """How each kind of request is shown."""
 
 

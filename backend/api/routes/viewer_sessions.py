@@ -9,7 +9,7 @@ from backend.api.dependencies import Store, Tokens
 from backend.api.errors import ApiError, problem_responses
 from backend.api.schemas import ViewerSession
 from backend.api.tokens import ViewerTokens
-from backend.api.viewer_requests import NEWEST, EpisodeView, LiveView, ViewerRequest
+from backend.api.viewer_requests import NEWEST, EpisodeView, InspectorView, LiveView, ViewerRequest
 from backend.store import viewer_sessions
 from backend.store.database import Database
 from backend.store.files import FileRow, list_files
@@ -29,6 +29,8 @@ def create_viewer_session(request: ViewerRequest, store: Store, tokens: Tokens) 
     files = list_files(store, run.id)
     if isinstance(request, EpisodeView):
         _check_episodes(run, files, request)
+    elif isinstance(request, InspectorView):
+        _check_model(run, files)
     elif not has_policy(files):
         raise ApiError(409, f"Run {run.id} has no policy to watch yet; wait for its first test.", "run_id")
     if isinstance(request, LiveView):
@@ -50,6 +52,14 @@ def end_viewer_session(session_id: str, store: Store) -> None:
     """End a session and free what it holds."""
     viewer_sessions.get_session(store, session_id)
     viewer_sessions.mark_ended(store, session_id, message="It was closed.")
+
+
+def _check_model(run: RunRow, files: list[FileRow]) -> None:
+    """Refuse a run that has no locomotion model."""
+    if run.phase != "locomotion":
+        raise ApiError(409, f"In run {run.id} the robot acts; demonstrations are those of locomotion runs.", "run_id")
+    if not any(file.kind == "locomotion" for file in files):
+        raise ApiError(409, f"Run {run.id} has no locomotion model yet; wait for its first test.", "run_id")
 
 
 def _check_episodes(run: RunRow, files: list[FileRow], request: EpisodeView) -> None:

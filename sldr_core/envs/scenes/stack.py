@@ -18,8 +18,8 @@ SETTLING_DISTANCE = 0.1
 """From one block to the next while the scene settles [m]."""
 
 
-def build_stack(scene: StackScene) -> mujoco.MjModel:
-    """Build the scene with its robot: nothing else acts in it."""
+def build_stack(scene: StackScene, has_robot: bool = True) -> mujoco.MjModel:
+    """Build the scene with its robot, as nothing else acts in it, or without, to be looked at."""
     spec = load_model(scene.model_file)
     _add_wall(spec, scene.wall_half_height)
     x, y, z = scene.start_object
@@ -27,7 +27,7 @@ def build_stack(scene: StackScene) -> mujoco.MjModel:
         block = add_block(spec.worldbody, index, (x, y + SETTLING_DISTANCE * index, z))
         block.add_joint(name=f"object{index}:joint", type=mujoco.mjtJoint.mjJNT_FREE, damping=JOINT_DAMPING)
     colour_blocks(spec, scene.objects)
-    return build_table(spec, (), True, 1.0)
+    return build_table(spec, (), has_robot, 1.0)
 
 
 @lru_cache(maxsize=8)

@@ -13,10 +13,13 @@ import { FilesTab } from './components/files-tab';
 import { HistoryTab } from './components/history-tab';
 import { LogTab } from './components/log-tab';
 import { OverviewTab } from './components/overview-tab';
+import { RerunTab } from './components/rerun-tab';
 import classes from './components/run.module.css';
 import { RunHeader } from './components/run-header';
+import { VideosTab } from './components/videos-tab';
 import { ViewerTab } from './components/viewer-tab';
 import { EpisodesTab } from './episodes/episodes-tab';
+import { DemonstrationsTab } from './inspector/demonstrations-tab';
 import { type RunSearch, TABS, type Tab } from './search';
 
 const route = getRouteApi('/runs/$runId');
@@ -25,6 +28,9 @@ const TAB_NAMES: Record<Tab, string> = {
   overview: 'Overview',
   '3d': '3D',
   episodes: 'Episodes',
+  demonstrations: 'Demonstrations',
+  rerun: 'Rerun',
+  videos: 'Videos',
   config: 'Config',
   log: 'Log',
   history: 'History',
@@ -64,7 +70,7 @@ function RunTabs({ run }: { run: RunDetail }) {
       keepMounted={false}
     >
       <Tabs.List mb="md" className={classes.tabs} aria-label="About this run">
-        {TABS.map((tab) => (
+        {TABS.filter((tab) => tab !== 'demonstrations' || run.phase === 'locomotion').map((tab) => (
           <Tabs.Tab key={tab} value={tab}>
             {TAB_NAMES[tab]}
           </Tabs.Tab>
@@ -76,9 +82,20 @@ function RunTabs({ run }: { run: RunDetail }) {
       <Tabs.Panel value="3d">
         <ViewerTab key={search.episode} run={run} episode={search.episode} />
       </Tabs.Panel>
+      <Tabs.Panel value="rerun">
+        <RerunTab run={run} />
+      </Tabs.Panel>
+      <Tabs.Panel value="videos">
+        <VideosTab run={run} />
+      </Tabs.Panel>
       <Tabs.Panel value="episodes">
         <EpisodesTab run={run} search={search} onShow={show} />
       </Tabs.Panel>
+      {run.phase === 'locomotion' && (
+        <Tabs.Panel value="demonstrations">
+          <DemonstrationsTab run={run} />
+        </Tabs.Panel>
+      )}
       <Tabs.Panel value="config">
         <ConfigTab run={run} />
       </Tabs.Panel>

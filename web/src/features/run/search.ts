@@ -1,18 +1,16 @@
 /** What the run page shows, as it stands in the address. */
+import { MOST_SMOOTHING } from '@/lib/smoothing';
 
 import { EPISODE_SORTS, type EpisodeSort, readEpisode } from './episodes/place';
 import { TAGS, type Tag } from './episodes/tags';
 
 /** The tabs of the run page. */
-export const TABS = ['overview', '3d', 'episodes', 'config', 'log', 'history', 'files'] as const;
+export const TABS = ['overview', '3d', 'demonstrations', 'episodes', 'rerun', 'videos', 'config', 'log', 'history', 'files'] as const;
 export type Tab = (typeof TABS)[number];
 
 /** What the charts may be drawn over. */
 export const AXES = ['epoch', 'env_steps', 'updates', 'wall_seconds'] as const;
 export type Axis = (typeof AXES)[number];
-
-/** The most that curves may be smoothed. */
-export const MOST_SMOOTHING = 0.99;
 
 export interface RunSearch {
   readonly tab?: Tab;

@@ -1,7 +1,7 @@
 /** One 3D session: asked for, waited for, and closed when nobody looks any more. */
 import { useMutation, useQuery } from '@tanstack/react-query';
 import { useEffect } from 'react';
-import type { ViewerSession } from '@/client/schema.gen';
+import type { InspectorView, ViewerSession } from '@/client/schema.gen';
 import { client, unwrap } from '@/lib/api';
 import type { SceneRequest } from '../scene-choice';
 
@@ -11,7 +11,8 @@ const READY_POLL_MS = 5_000; // [ms]
 /** Open, follow and close a 3D session. */
 export function useViewerSession() {
   const opening = useMutation({
-    mutationFn: (request: SceneRequest) => unwrap(client.POST('/api/viewer-sessions', { body: request })),
+    mutationFn: (request: SceneRequest | InspectorView) =>
+      unwrap(client.POST('/api/viewer-sessions', { body: request })),
   });
   const id = opening.data?.id;
   const following = useQuery({

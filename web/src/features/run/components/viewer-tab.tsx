@@ -50,7 +50,9 @@ export function ViewerTab({ run, episode }: { run: RunDetail; episode: string | 
     );
   }
   if (session?.state === 'ready' && session.url !== null) {
-    return <SceneView url={session.url} message={session.message ?? ''} onClose={close} />;
+    const { kind, epoch, index } = choice.current;
+    const recorded = kind === 'episode' ? { runId: run.id, epoch, number: index } : undefined;
+    return <SceneView url={session.url} message={session.message ?? ''} recorded={recorded} onClose={close} />;
   }
   if (session || isOpening) {
     return (

@@ -11,6 +11,7 @@ import { sentence } from '@/lib/api';
 import { formatValue } from '@/lib/format';
 import { lineStyle } from '@/lib/palette';
 import type { Range } from '@/lib/zoom';
+import { EpisodeVideos } from '../components/episode-videos';
 import classes from './episodes.module.css';
 import { timelinesQuery } from './get-episodes';
 import { type EpisodePlace, episodeName } from './place';
@@ -69,6 +70,7 @@ function Shown({ runId, timelines }: { runId: string; timelines: Timelines }) {
           ? 'Simulated again from its start and actions alone, it came to the same states, to the last bit.'
           : 'Simulated again from its start and actions alone, it came to other states; shown is what was recorded.'}
       </p>
+      <EpisodeVideos runId={runId} epoch={episode.epoch} number={episode.index} />
       <div className={classes.timelines}>
         {charts.map((chart) => (
           <TimelineChart key={chart.title} chart={chart} view={chart.title === Q_TITLE ? { ...view, marks } : view} />
