@@ -28,7 +28,7 @@ from sldr_core.config import TASKS
 from worker.viewer.host import Host, Limits
 from worker.viewer.process import serve_session
 
-PATIENCE_S = 30.0
+PATIENCE_S = 60.0
 
 
 @pytest.fixture
