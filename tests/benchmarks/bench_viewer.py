@@ -27,8 +27,9 @@ from sldr_core.presets import make_config
 from sldr_core.training.build import build_training
 from sldr_core.training.checkpoint import Counters
 from sldr_core.training.policy import write_policy
-from worker.viewer.host import Host, Limits, keep_warm
+from worker.viewer.host import Host, Limits
 from worker.viewer.process import serve_session
+from worker.viewer.warming import keep_warm
 
 WATCHED_S = 15.0
 """How long a session is watched for its figures [s]."""
@@ -46,7 +47,7 @@ def main(tasks: list[str]) -> None:
         database = open_database(settings)
         runs = {task: prepare(database, settings, task) for task in tasks}
         keep_warm().wait()
-        host = Host(database, settings, target=serve_session, limits=Limits(sessions=OPENED, unopened_s=3.0))
+        host = Host(database, settings, target=serve_session, limits=Limits(sessions=OPENED, unopened_s=10.0))
         host.begin()
         for task, run_id in runs.items():
             print(f"{task}: {measure(host, database, run_id)}", flush=True)
@@ -73,6 +74,8 @@ def measure_opening(host: Host, database: Database, run_id: str) -> tuple[viewer
     while time.monotonic() < asked_at + PATIENCE_S:
         host.tick()
         session = viewer_sessions.get_session(database, asked.id)
+        if session.state == "failed":
+            raise SystemExit(f"the session failed: {session.message}")
         if session.state != "starting":
             return session, time.monotonic() - asked_at
         time.sleep(0.02)

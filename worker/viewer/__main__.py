@@ -16,8 +16,9 @@ from backend.store.errors import StoreUnavailable
 from backend.store.settings import Settings, load_settings
 from sldr_core.errors import SldrError
 from worker.media.host import MediaHost
-from worker.viewer.host import Host, keep_warm
+from worker.viewer.host import Host
 from worker.viewer.process import serve_session
+from worker.viewer.warming import keep_warm
 
 POLL_S = 0.2
 """Time between two looks into the store [s]."""

@@ -1,6 +1,6 @@
 """The viewer host: takes the 3D sessions that are asked for and serves each in a process of its own.
 
-The processes are forked from one that `keep_warm` has let import everything: a page opens in about a second.
+The processes are forked from one that has imported everything before (`worker.viewer.warming`).
 """
 
 from __future__ import annotations
@@ -10,12 +10,10 @@ import multiprocessing
 import os
 import signal
 import socket
-import threading
 import time
 import uuid
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from multiprocessing import forkserver
 from multiprocessing.connection import Connection
 from multiprocessing.context import ForkServerProcess
 
@@ -35,9 +33,6 @@ ENDING_S = 3.0
 
 ORPHANED = "The 3D viewer was started again; open the view once more."
 """What a session says whose host is no more."""
-
-WARM_MODULES = ["worker.viewer.warm"]
-"""What the process that sessions are forked from imports beforehand."""
 
 Target = Callable[[Job, Connection], None]
 """What a session process runs."""
@@ -162,6 +157,7 @@ class Host:
         match report:
             case Ready(port, message, control_port):
                 viewer_sessions.mark_ready(self.database, served.session.id, port, message, control_port)
+                served.idle_since = now  # nobody could look at it before
             case Watched(clients):
                 if served.clients or clients:
                     served.idle_since = now
@@ -213,34 +209,6 @@ class Host:
             find_session_files(self._files, session)
         except (SldrError, FilesUnavailable) as err:
             log.warning("session %s goes on with what it has: %s", session.id, err)
-
-
-def keep_warm() -> threading.Event:
-    """Start the process from which sessions are forked; it ends with this one, whichever way.
-
-    Returns:
-        What is set once it has imported everything. To ask it for a session before would mean to wait, and a host that
-        waits gives no sign of life.
-    """
-    context = multiprocessing.get_context("forkserver")
-    context.set_forkserver_preload(WARM_MODULES)
-    forkserver.ensure_running()
-    is_warm = threading.Event()
-    threading.Thread(target=_wait_until_warm, args=(is_warm,), name="warming", daemon=True).start()
-    return is_warm
-
-
-def _wait_until_warm(is_warm: threading.Event) -> None:
-    try:
-        probe = multiprocessing.get_context("forkserver").Process(target=_do_nothing)
-        probe.start()
-        probe.join()
-    finally:
-        is_warm.set()
-
-
-def _do_nothing() -> None:
-    """End at once."""
 
 
 def _is_another_process(pid: int) -> bool:
