@@ -12,6 +12,8 @@ PARTS ?= all
 CHAOS ?=
 # Locomotion models that `make pictures-3d` takes its pictures of.
 MODELS ?=
+# Options of `make bench`; `make bench BENCH=--help` lists them.
+BENCH ?=
 # What the system packages are for: run, or test.
 purpose := run
 
@@ -19,7 +21,7 @@ PIP := .venv/bin/python -m pip --disable-pip-version-check --quiet
 WEB_SOURCES := $(shell find web/src web/public -type f -not -name '*.test.*' 2>/dev/null)
 CLIENT := web/src/client/schema.gen.ts
 
-.PHONY: run test chaos setup web client pictures-3d lock format clean help system
+.PHONY: run test chaos bench pictures pictures-3d setup web client lock format clean help system
 
 run: setup ## Set everything up and serve the page; HOST and PORT say where
 	@exec .venv/bin/sldr serve --host $(HOST) --port $(PORT)
@@ -28,7 +30,13 @@ test: setup ## Set everything up and run every check; PARTS="lint pytest" runs s
 	@.ci/checks.sh $(PARTS)
 
 chaos: setup ## Kill, crowd and hurry a service; the results go into docs/reliability.md (many minutes)
-	@.venv/bin/python tests/chaos --write docs/reliability.md $(CHAOS)
+	@PYTHONPATH=tests .venv/bin/python tests/chaos --write docs/reliability.md $(CHAOS)
+
+bench: setup ## Measure speed beside peers; the table goes into docs/performance.md (many minutes, quiet machine)
+	@PYTHONPATH=tests .venv/bin/python tests/benchmarks --write docs/performance.md $(BENCH)
+
+pictures: setup ## Take a picture of every page, light and dark, into docs/pictures (minutes)
+	@SLDR_CHROMIUM=$$(.ci/find-chromium.sh) .venv/bin/python tests/pictures docs/pictures
 
 setup: system .make/package web ## Make the Python environment and build the page
 
@@ -56,7 +64,7 @@ clean: ## Remove everything that was made; trained runs stay
 help: ## List what can be made
 	@sed -nE 's/^([a-z0-9-]+):.*## (.*)/  make \1\t\2/p' Makefile | expand -t 16
 
-test: purpose := test
+test bench pictures pictures-3d: purpose := test
 system:
 	@.ci/system-packages.sh $(purpose)
 

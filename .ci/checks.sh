@@ -19,7 +19,12 @@ check_pytest() {
     SLDR_CHROMIUM=$(.ci/find-chromium.sh) || return
     export SLDR_CHROMIUM
     # Most tests wait for other processes; each file stays in one process, for what its tests share.
-    .venv/bin/pytest --numprocesses "$(nproc)" --dist loadfile
+    .venv/bin/pytest --numprocesses $(($(nproc) + 1)) --dist loadfile --no-loadscope-reorder \
+        --durations 25 --durations-min 5 && return
+    # Deadlines can pass on a machine that is busy elsewhere, so what failed beside others is asked once more, alone.
+    echo "== pytest, only what has just failed, one after the other"
+    .venv/bin/pytest --last-failed --last-failed-no-failures none || return
+    echo "These tests failed beside others and passed alone, see above: a deadline too short, or something shared." >&2
 }
 
 check_client() {

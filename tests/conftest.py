@@ -24,6 +24,16 @@ CHROMIUM_ARGUMENTS = [
     "--enable-unsafe-swiftshader",  # 3D without a graphics card
 ]
 
+LONGEST_FIRST = ("browser", "cluster", "chaos", "worker", "core", "cli", "viewer")
+"""Rooms that take long begin first, so that at the end no process is left alone with one of their files."""
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Order tests by their rooms; within a room they stay as they were."""
+    rank = {room: place for place, room in enumerate(LONGEST_FIRST)}
+    items.sort(key=lambda item: rank.get(item.path.parent.name, len(rank)))
+
 
 @pytest.fixture(scope="session")
 def chromium_path() -> str:

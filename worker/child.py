@@ -14,8 +14,9 @@ import socket
 import sys
 import threading
 import time
-from collections.abc import Generator, Sequence
+from collections.abc import Callable, Generator, Sequence
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import IO, Protocol
 
@@ -28,12 +29,11 @@ from backend.store.queue import finish
 from backend.store.settings import Settings, load_settings
 from sldr_core.config import TrainConfig
 from sldr_core.errors import SldrError
-from sldr_core.records import Step
 from worker.claimed_files import bring_claimed_run, send_log
 from worker.locomotion_files import find_locomotion_models
 from worker.mortality import end_with_parent
 from worker.patience import insist
-from worker.recorder import Curves, StoreRecorder, WriteCurves
+from worker.recorder import StoreRecorder
 from worker.sign_of_life import showing_life
 from worker.words import STOP_WORDS, StopWord
 
@@ -79,16 +79,20 @@ class Train(Protocol):
         ...
 
 
+RecordRun = Callable[[Database, Settings, str, Path], None]
+"""Write all that the store has of a run to a Rerun file."""
+
+
 class DirectoryBusy(Exception):
     """Report that a process of an earlier attempt still writes the run's directory."""
 
 
 def main() -> int:
     """Train for real."""
-    return run_child(_train, _write_curves)
+    return run_child(_train, _record_run)
 
 
-def run_child(train: Train, write_curves: WriteCurves | None = None) -> int:
+def run_child(train: Train, record_run: RecordRun | None = None) -> int:
     """Read a claim, train, and report how it ended; return the exit status."""
     end_with_parent()
     faulthandler.enable()
@@ -98,7 +102,7 @@ def run_child(train: Train, write_curves: WriteCurves | None = None) -> int:
     settings = load_settings()
     db = insist(lambda: open_database(settings))
     try:
-        outcome = _attempt(db, settings, claim, requests, train, write_curves)
+        outcome = _attempt(db, settings, claim, requests, train, record_run)
         send_log(db, settings, claim)
         insist(lambda: finish(db, claim, outcome))
     except StaleFence as err:
@@ -136,7 +140,7 @@ def _attempt(
     claim: Claim,
     requests: StopRequests,
     train: Train,
-    write_curves: WriteCurves | None,
+    record_run: RecordRun | None,
 ) -> Outcome:
     """Train, and turn whatever happens into an outcome; only a stale fence leaves as an error."""
     try:
@@ -147,7 +151,8 @@ def _attempt(
                 bring_claimed_run(db, settings, claim)
             log.info("Attempt %d of run %s begins in process %d.", claim.attempt, claim.run_id, os.getpid())
             models = insist(lambda: find_locomotion_models(db, settings, claim))
-            with StoreRecorder(db, settings, claim, requests.newest, write_curves) as recorder:
+            write = None if record_run is None else partial(record_run, db, settings, claim.run_id)
+            with StoreRecorder(db, settings, claim, requests.newest, write) as recorder:
                 result = train(claim.config, recorder, models, claim.gate_waived)
     except DirectoryBusy as err:
         return HandedBack(str(err), LOCK_RETRY_S)
@@ -213,10 +218,10 @@ def _train(
     return train(config, recorder, locomotion_models, gate_waived)
 
 
-def _write_curves(path: Path, title: str, steps: Sequence[Step], values: Curves) -> None:
-    from worker.rerun_log import write_curves  # Takes seconds to import, and is needed at the end only.
+def _record_run(db: Database, settings: Settings, run_id: str, path: Path) -> None:
+    from worker.recording.run_recording import record_run  # Takes seconds to import.
 
-    write_curves(path, title, steps, values)
+    record_run(db, settings, run_id, path)
 
 
 if __name__ == "__main__":

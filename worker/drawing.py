@@ -25,6 +25,12 @@ OVERSAMPLING = 2
 MIN_CONTRAST = 4.0
 """A frame whose brightness varies less than this was not drawn, of 255."""
 
+VIDEO_SHADOW_SIZE = 2048
+"""Side of the map of shadows in videos [pixels]."""
+
+VIDEO_SAMPLES = 2
+"""Samples per pixel in videos."""
+
 
 class EmptyPicture(SldrError):
     """Report that the renderer returned a frame with nothing on it."""
@@ -53,27 +59,47 @@ def draw(
     width: int,
     height: int,
 ) -> NDArray[np.uint8]:
-    """Draw one moment of a scene as `[height, width, 3]`.
-
-    Args:
-        qpos: joint positions, `[nq]`.
-        goal: the task's goal, `[G]`: positions of the markers [m]; a hand's target is drawn where `qpos` has it.
+    """Draw one moment of a scene as `[height, width, 3]`; `SceneDrawing.frame` says what is what.
 
     Raises:
         EmptyPicture: nothing was drawn.
     """
-    dressed = dress(model)
-    dressed.vis.global_.offwidth, dressed.vis.global_.offheight = width, height
-    dressed.vis.global_.fovy = camera.field_of_view
-    data = mujoco.MjData(dressed)
-    data.qpos[:] = qpos
-    _place_goal(dressed, data, goal)
-    untyped: Any = mujoco.Renderer(dressed, height=height, width=width)
-    with closing(untyped) as renderer:
-        renderer.update_scene(data, camera.as_mujoco())
-        frame = renderer.render().copy()
+    with closing(SceneDrawing(model, camera, width, height)) as drawing:
+        frame = drawing.frame(qpos, goal)
     check_frame(frame)
     return frame
+
+
+class SceneDrawing:
+    """Draw moments of one scene. Make, use and close it in one thread: in another, frames come out black."""
+
+    def __init__(self, model: mujoco.MjModel, camera: Camera, width: int, height: int, is_video: bool = False) -> None:
+        self._model = dress(model)
+        self._model.vis.global_.offwidth, self._model.vis.global_.offheight = width, height
+        self._model.vis.global_.fovy = camera.field_of_view
+        if is_video:
+            # Nobody sees the difference while it moves, and without a graphics card it takes half the time.
+            self._model.vis.quality.shadowsize, self._model.vis.quality.offsamples = VIDEO_SHADOW_SIZE, VIDEO_SAMPLES
+        self._data = mujoco.MjData(self._model)
+        self._camera = camera.as_mujoco()
+        untyped: Any = mujoco.Renderer(self._model, height=height, width=width)
+        self._renderer = untyped
+
+    def frame(self, qpos: NDArray[np.floating], goal: NDArray[np.floating]) -> NDArray[np.uint8]:
+        """Draw one moment as `[height, width, 3]`.
+
+        Args:
+            qpos: joint positions, `[nq]`.
+            goal: the task's goal, `[G]`: positions of the markers [m]; a hand's target is drawn where `qpos` has it.
+        """
+        self._data.qpos[:] = qpos
+        _place_goal(self._model, self._data, goal)
+        self._renderer.update_scene(self._data, self._camera)
+        return self._renderer.render().copy()
+
+    def close(self) -> None:
+        """Give the renderer back."""
+        self._renderer.close()
 
 
 def check_frame(frame: NDArray[np.uint8]) -> None:

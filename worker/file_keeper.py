@@ -8,15 +8,18 @@ last, the pair that other machines find can be resumed from.
 from __future__ import annotations
 
 import logging
+from collections.abc import Collection
 from pathlib import Path
 
 from backend.store.blocks import EMPTY, BlockList, put_blocks, read_block_list
 from backend.store.claims import Claim
 from backend.store.database import Database
+from backend.store.episodes import forget_episodes, register_episodes
 from backend.store.errors import FilesUnavailable, NotFound
 from backend.store.files import LOG_FILE, REPLAY_FILE, REPLAY_LIST, FileRow, find_file, list_files, register_file
 from backend.store.outcomes import CHECKPOINT_KIND
 from backend.store.storage import FileStorage, SharedPlace, attempt_directory, checksum
+from sldr_core.episodes import RecordedTest, episodes_file
 from worker.patience import FILES_PATIENCE_S, insist
 
 log = logging.getLogger(__name__)
@@ -52,6 +55,19 @@ class FileKeeper:
             self._keep(LOG_FILE, "log", path, patience_s=0.0)
         except FilesUnavailable as err:
             log.warning("The log stays on this machine: %s", err)
+
+    def keep_episodes(self, test: RecordedTest, kept_epochs: Collection[int]) -> None:
+        """List the episodes whose file is kept already, and drop those of earlier tests that are not to stay.
+
+        Raises:
+            StaleFence: the run was given to another worker.
+            StoreUnavailable: the store could not be used for minutes.
+        """
+        newest = test.origin.epoch
+        summaries = test.summaries()
+        insist(lambda: register_episodes(self._db, self._claim, episodes_file(newest), summaries))
+        for dropped in insist(lambda: forget_episodes(self._db, self._claim, newest, kept_epochs)):
+            self._forget(dropped.path)
 
     def sweep(self) -> None:
         """Remove what earlier attempts put at the shared place without living to register it."""

@@ -5,42 +5,39 @@ from __future__ import annotations
 import logging
 import math
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping
+from functools import partial
 from pathlib import Path
-from typing import Protocol
 
 from backend.store.claims import Claim
 from backend.store.database import Database
 from backend.store.errors import StaleFence, StoreUnavailable
-from backend.store.metrics import MetricPoint, read_metrics
+from backend.store.metrics import MetricPoint
 from backend.store.outcomes import CHECKPOINT_KIND
 from backend.store.progress import Progress, find_progress
 from backend.store.settings import Settings
 from backend.store.storage import FileStorage
 from sldr_core.disk import write_atomically
+from sldr_core.episodes import KIND as EPISODES_KIND
+from sldr_core.episodes import RecordedTest, episodes_file, remove_episodes, write_episodes
 from sldr_core.errors import TrainingDiverged
 from sldr_core.records import Step
 from worker.file_keeper import FileKeeper
 from worker.metric_writer import MetricWriter
-from worker.patience import insist
 from worker.sign_of_life import showing_life
 from worker.words import StopWord
 
-Curves = Mapping[str, Sequence[float | None]]
-"""Values per metric, as long as the steps; None where a metric was not logged."""
-
-CURVES_INTERVAL_S = 60.0
+RECORDING_INTERVAL_S = 60.0
 """While a run trains, its Rerun file is renewed after a test if it is older than this [s]."""
+
+RECORDING_SHARE = 0.01
+"""No more than this share of a training's time goes into that."""
 
 log = logging.getLogger(__name__)
 
 
-class WriteCurves(Protocol):
-    """Write a run's curves to a Rerun file."""
-
-    def __call__(self, path: Path, title: str, steps: Sequence[Step], values: Curves) -> None:
-        """Write all points to `path`."""
-        ...
+WriteRecording = Callable[[Path], None]
+"""Write all that the store has of the run to a Rerun file."""
 
 
 class StoreRecorder:
@@ -52,7 +49,7 @@ class StoreRecorder:
         settings: Settings,
         claim: Claim,
         stop_requested: Callable[[], StopWord | None],
-        write_curves: WriteCurves | None = None,
+        write_recording: WriteRecording | None = None,
     ) -> None:
         self._db = db
         self._directory = settings.run_directory(claim.run_id)
@@ -60,8 +57,8 @@ class StoreRecorder:
         self._claim = claim
         self._keeper = FileKeeper(db, FileStorage(settings), claim)
         self._stop_requested = stop_requested
-        self._write_curves = write_curves
-        self._curves_saved_at = time.monotonic()
+        self._write_recording = write_recording
+        self._record_at = time.monotonic() + RECORDING_INTERVAL_S
         self._known = find_progress(db, claim.run_id)
         self._writer = MetricWriter(db, claim)
 
@@ -70,7 +67,7 @@ class StoreRecorder:
 
     def __exit__(self, *_: object) -> None:
         self._writer.close()
-        self._save_curves()
+        self._save_recording()
 
     @property
     def directory(self) -> Path:
@@ -91,8 +88,8 @@ class StoreRecorder:
         self._writer.put(MetricPoint(step, dict(metrics)), self._known)
         if "test/success_rate" in metrics:
             log.info("epoch %d: test success %.1f %%", step.epoch, 100.0 * metrics["test/success_rate"])
-            if time.monotonic() - self._curves_saved_at > CURVES_INTERVAL_S:
-                self._save_curves()
+            if time.monotonic() > self._record_at:
+                self._save_recording()
 
     def save_file(self, name: str, kind: str, write: Callable[[Path], None]) -> Path:
         """Write a file of the run safely, and keep it where other machines find it, with size and checksum.
@@ -110,6 +107,18 @@ class StoreRecorder:
             self._keeper.keep(name, kind, path)
         self._writer.check()
         return path
+
+    def record_episodes(self, test: RecordedTest, kept_epochs: Collection[int]) -> None:
+        """Keep the episodes of a test, list them in the store, and drop those of earlier tests that are not to stay.
+
+        Raises:
+            StaleFence: the run was given to another worker.
+            StoreUnavailable: store or shared place could not be used for minutes.
+        """
+        newest = test.origin.epoch
+        self.save_file(episodes_file(newest), EPISODES_KIND, partial(write_episodes, test=test))
+        self._keeper.keep_episodes(test, kept_epochs)
+        remove_episodes(self._directory, newest, kept_epochs)
 
     def stop_requested(self) -> StopWord | None:
         """Return what the supervisor asked for, if anything; who asks often shows that the training goes on.
@@ -137,37 +146,19 @@ class StoreRecorder:
             seconds_left=metrics.get("progress/seconds_left"),
         )
 
-    def _save_curves(self) -> None:
-        """Write the run's curves, of this attempt and those before it, to a Rerun file."""
-        write_curves, config = self._write_curves, self._claim.config
-        if write_curves is None:
+    def _save_recording(self) -> None:
+        """Write the run, as this attempt and those before it have left it, to a Rerun file."""
+        write = self._write_recording
+        if write is None or self._known is None:
             return
-        self._curves_saved_at = time.monotonic()
-        steps, values = insist(lambda: read_curves(self._db, self._claim.run_id))
-        if not steps:
-            return
-        title = f"{config.task} {config.method} {config.phase}, seed {config.seed}"
-        name = f"curves-attempt-{self._claim.attempt}.rrd"
+        begun = time.monotonic()
+        self._writer.flush()
         try:
-            self.save_file(name, "recording", lambda path: write_curves(path, title, steps, values))
+            self.save_file(f"recording-attempt-{self._claim.attempt}.rrd", "recording", write)
         except (StaleFence, StoreUnavailable):
             raise
         except Exception:
             # A training must not fail for a copy of what is in the store.
             log.exception("The Rerun file could not be written.")
-
-
-def read_curves(db: Database, run_id: str) -> tuple[list[Step], Curves]:
-    """Return every point of a run that no later attempt has superseded."""
-    steps: list[Step] = []
-    curves: dict[str, list[float | None]] = {}
-    cursor = 0
-    while (page := read_metrics(db, run_id, cursor)).step:
-        cursor = page.cursor
-        for name in page.values:
-            curves.setdefault(name, [None] * len(steps))
-        counts = zip(page.step, page.epoch, page.env_steps, page.episodes, page.updates, page.wall_seconds, strict=True)
-        steps.extend(Step(*numbers) for numbers in counts)
-        for name, column in curves.items():
-            column.extend(page.values.get(name, [None] * len(page.step)))
-    return steps, curves
+        ended = time.monotonic()
+        self._record_at = ended + max(RECORDING_INTERVAL_S, (ended - begun) / RECORDING_SHARE)

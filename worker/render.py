@@ -14,6 +14,8 @@ import os
 import subprocess
 import sys
 import tempfile
+from collections.abc import Generator
+from contextlib import contextmanager
 from pathlib import Path
 
 from sldr_core.config import TASKS, find_task
@@ -42,6 +44,26 @@ _ERROR_MARK = "error: "
 
 class RenderFailed(SldrError):
     """Report that a picture could not be drawn."""
+
+
+class NoRenderer(RenderFailed):
+    """Report that this machine can draw nothing off screen."""
+
+
+@contextmanager
+def off_screen() -> Generator[None]:
+    """Let this process draw through EGL; MuJoCo has to be imported, and its renderer to be made, within.
+
+    Raises:
+        NoRenderer: this machine has no EGL that works.
+    """
+    try:
+        ctypes.CDLL(EGL_LIBRARY)
+        # MuJoCo reads it when imported, so it is set before and in this process alone.
+        os.environ["MUJOCO_GL"] = "egl"
+        yield
+    except (OSError, ImportError, RuntimeError) as err:
+        raise NoRenderer(f"{MISSING_EGL} ({err}).") from err
 
 
 def render_task_picture(task: str, path: Path, width: int = PICTURE_SIZE[0], height: int = PICTURE_SIZE[1]) -> None:
@@ -98,15 +120,10 @@ def main() -> int:
 
 def _draw_here(task: str, path: Path, width: int, height: int) -> None:
     find_task(task)
-    try:
-        ctypes.CDLL(EGL_LIBRARY)
-        # MuJoCo reads it when imported, so it is set before and in this process alone.
-        os.environ["MUJOCO_GL"] = "egl"
+    with off_screen():
         from worker.drawing import draw_task
 
         picture = draw_task(task, width, height)
-    except (OSError, ImportError, RuntimeError) as err:
-        raise RenderFailed(f"{MISSING_EGL} ({err}).") from err
     picture.save(path, format="PNG")
 
 

@@ -28,6 +28,7 @@ def run_detail(row: RunRow, files: list[FileRow]) -> RunDetail:
         **_summary_fields(row),
         config=row.config,
         config_hash=row.config_hash,
+        notes=row.notes,
         locomotion_run_id=row.needs[0] if row.needs else None,
         has_policy=has_policy(files),
         has_recording=any(file.name.endswith(RECORDING_SUFFIX) for file in files),
@@ -61,4 +62,6 @@ def _summary_fields(row: RunRow) -> dict[str, Any]:
         "gate_waived": row.gate_waived,
         "priority": row.priority,
         "deleted_at": row.deleted_at,
+        "settings_hash": row.settings_hash,
+        "tags": list(row.tags),
     }

@@ -17,8 +17,27 @@ from backend.api.errors import add_error_answers
 from backend.api.hosts import LOCAL, HostRule, OwnHost
 from backend.api.origins import SameOrigin
 from backend.api.pages import BUILT_PAGE, add_pages
-from backend.api.routes import choices, health, launches, queue, run_actions, run_files, runs, viewer_sessions, workers
+from backend.api.routes import (
+    choices,
+    compare,
+    compare_exports,
+    episodes,
+    health,
+    labels,
+    launches,
+    media,
+    queue,
+    run_actions,
+    run_files,
+    run_table,
+    runs,
+    saved_views,
+    studies,
+    viewer_sessions,
+    workers,
+)
 from backend.api.tokens import ViewerTokens, load_secret
+from backend.comparison.memory import ComparisonMemory
 from backend.store.database import open_database
 from backend.store.settings import Settings
 from backend.store.storage import FileStorage
@@ -52,12 +71,20 @@ def create_app(settings: Settings, page: Path = BUILT_PAGE, hosts: HostRule = LO
         health,
         choices,
         launches,
+        studies,
         run_actions,
+        labels,
+        run_table,
         runs,
         run_files,
+        episodes,
+        media,
         queue,
         workers,
+        saved_views,
         viewer_sessions,
+        compare,
+        compare_exports,
         viewer_proxy,
     ):
         app.include_router(routes.router)
@@ -80,7 +107,7 @@ def _lifespan(settings: Settings):  # noqa: ANN202 - the decorator's type is lon
         database = open_database(settings)
         with viewer_proxy.viser_client() as viser:
             tokens = ViewerTokens(load_secret(settings.secret_path))
-            app.state.service = Service(settings, database, FileStorage(settings), tokens, viser)
+            app.state.service = Service(settings, database, FileStorage(settings), tokens, viser, ComparisonMemory())
             yield
         database.close()
 

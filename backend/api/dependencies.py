@@ -10,6 +10,7 @@ from fastapi import Depends
 from starlette.requests import HTTPConnection
 
 from backend.api.tokens import ViewerTokens
+from backend.comparison.memory import ComparisonMemory
 from backend.store.database import Database
 from backend.store.settings import Settings
 from backend.store.storage import FileStorage
@@ -25,6 +26,8 @@ class Service:
     tokens: ViewerTokens
     viser: httpx.Client
     """Fetches pages from the 3D servers on this machine."""
+    memory: ComparisonMemory
+    """What comparisons keep between two questions."""
 
 
 def get_service(connection: HTTPConnection) -> Service:
@@ -52,8 +55,14 @@ def get_tokens(connection: HTTPConnection) -> ViewerTokens:
     return get_service(connection).tokens
 
 
+def get_memory(connection: HTTPConnection) -> ComparisonMemory:
+    """Return what comparisons keep."""
+    return get_service(connection).memory
+
+
 ServiceParts = Annotated[Service, Depends(get_service)]
 Store = Annotated[Database, Depends(get_database)]
 Storage = Annotated[FileStorage, Depends(get_storage)]
 ServiceSettings = Annotated[Settings, Depends(get_settings)]
 Tokens = Annotated[ViewerTokens, Depends(get_tokens)]
+Memory = Annotated[ComparisonMemory, Depends(get_memory)]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from itertools import chain
+from pathlib import PurePath
 from urllib.parse import quote
 
 from fastapi.responses import FileResponse, Response, StreamingResponse
@@ -14,6 +15,10 @@ from backend.store.files import FileRow
 from backend.store.storage import FileStorage
 
 MEDIA_TYPE = "application/octet-stream"
+"""Of files to be kept by whoever asks."""
+
+SHOWN_TYPES = {".mp4": "video/mp4", ".webm": "video/webm", ".webp": "image/webp"}
+"""Of files that a page shows, by their ending."""
 
 
 def send_file(storage: FileStorage, row: FileRow, byte_range: str | None) -> Response:
@@ -31,16 +36,24 @@ def send_file(storage: FileStorage, row: FileRow, byte_range: str | None) -> Res
     if path is not None:
         if byte_range is not None:
             _read_range(byte_range, path.stat().st_size)
-        return FileResponse(path, media_type=MEDIA_TYPE, filename=row.name)
+        media_type, disposition = _manner(row.name)
+        return FileResponse(path, media_type=media_type, filename=row.name, content_disposition_type=disposition)
     if storage.shared is None:
         raise ApiError(404, f"File {row.name} of run {row.run_id} is recorded but no longer on the disk.")
     return _stream(storage, row, byte_range)
 
 
+def _manner(name: str) -> tuple[str, str]:
+    """Return the media type of a file, and whether it is for the page to show or for the disk."""
+    shown = SHOWN_TYPES.get(PurePath(name).suffix)
+    return (MEDIA_TYPE, "attachment") if shown is None else (shown, "inline")
+
+
 def _stream(storage: FileStorage, row: FileRow, byte_range: str | None) -> Response:
+    media_type, disposition = _manner(row.name)
     headers = {
         "accept-ranges": "bytes",
-        "content-disposition": f"attachment; filename*=utf-8''{quote(row.name)}",
+        "content-disposition": f"{disposition}; filename*=utf-8''{quote(row.name)}",
         "etag": f'"{row.sha256}"',
     }
     start, end = (0, row.size) if byte_range is None else _read_range(byte_range, row.size)
@@ -50,7 +63,7 @@ def _stream(storage: FileStorage, row: FileRow, byte_range: str | None) -> Respo
     pieces = storage.read(row, start)
     # The first piece is read before the answer begins, so that a place out of reach is an error and no cut-off file.
     content = _cut(chain([next(pieces, b"")], pieces), end - start)
-    return StreamingResponse(content, 200 if byte_range is None else 206, headers, MEDIA_TYPE)
+    return StreamingResponse(content, 200 if byte_range is None else 206, headers, media_type)
 
 
 def _cut(pieces: Iterator[bytes], length: int) -> Iterator[bytes]:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 from fastapi import FastAPI, Request
-from fastapi.responses import HTMLResponse
+from fastapi.responses import FileResponse, HTMLResponse, Response
 from starlette.datastructures import MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
@@ -13,6 +14,9 @@ from backend.api.errors import ApiError
 
 BUILT_PAGE = Path(__file__).parents[2] / "web" / "dist"
 """Where `make web` puts the page."""
+
+WASM_TYPE = "application/wasm"
+"""Browsers compile it while it comes only under this type."""
 
 NOT_BUILT = """<!doctype html>
 <html lang="en">
@@ -30,6 +34,7 @@ def add_pages(app: FastAPI, directory: Path) -> None:
         app.add_api_route(path, _nothing_here, methods=["GET"], include_in_schema=False)
     app.add_middleware(CacheRules)
     if (directory / "index.html").is_file():
+        app.add_api_route("/assets/{name}.wasm", _send_wasm_below(directory), methods=["GET"], include_in_schema=False)
         app.frontend("/", directory=directory, fallback="index.html")
     else:
         app.add_api_route("/{path:path}", _say_how_to_build, include_in_schema=False)
@@ -56,6 +61,27 @@ class CacheRules:
             await send(message)
 
         await self._app(scope, receive, send_with_rule)
+
+
+def _send_wasm_below(directory: Path) -> Callable[[str, Request], Response]:
+    """Return a route for WebAssembly of the built page, which is compressed once, when the page is built."""
+
+    def send_wasm(name: str, request: Request) -> Response:
+        path = directory / "assets" / f"{name}.wasm"
+        packed = path.with_name(f"{path.name}.gz")
+        if not path.is_file():
+            raise ApiError(404, f"There is nothing at {request.url.path}.")
+        if not packed.is_file() or "gzip" not in request.headers.get("accept-encoding", ""):
+            return FileResponse(path, media_type=WASM_TYPE)
+        # Rerun's viewer reads how long it will be, to show how much of it has come.
+        headers = {
+            "content-encoding": "gzip",
+            "vary": "Accept-Encoding",
+            "rerun-final-length": str(path.stat().st_size),
+        }
+        return FileResponse(packed, media_type=WASM_TYPE, headers=headers)
+
+    return send_wasm
 
 
 def _nothing_here(request: Request) -> None:

@@ -141,12 +141,17 @@ class RunSummary(Strict):
     gate_waived: bool = Field(description="A person has let it start below its gate.")
     priority: int = Field(description="Runs of a higher one start first.")
     deleted_at: datetime | None = Field(description="When a person hid it; it can be restored.")
+    settings_hash: str = Field(description="Equal for runs that differ in nothing but the seed.")
+    tags: list[str] = Field(description="What people call it, in the order of the alphabet.")
 
 
 class RunPage(Strict):
     """One page of runs, in the order asked for."""
 
     runs: list[RunSummary]
+    values: list[list[float | None]] = Field(
+        description="For each run, the values of the columns asked for; null where it has not logged the metric."
+    )
     next_cursor: str | None
     total: int
 
@@ -162,6 +167,7 @@ class RunDetail(RunSummary):
 
     config: dict[str, Any]
     config_hash: str
+    notes: str = Field(description="What people wrote about it, as plain text.")
     locomotion_run_id: str | None
     has_policy: bool = Field(description="Whether there is a policy that can be watched in 3D.")
     has_recording: bool = Field(description="Whether there is a Rerun file to download.")

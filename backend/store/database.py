@@ -8,9 +8,10 @@ from contextlib import contextmanager, nullcontext
 from datetime import UTC, datetime
 from pathlib import Path
 
-from sqlalchemy import Connection, Engine, func, inspect, select, text
+from sqlalchemy import URL, Connection, Engine, event, func, inspect, select, text
 from sqlalchemy.exc import DataError, DBAPIError, OperationalError
 from sqlalchemy.exc import TimeoutError as NoConnectionFree
+from sqlalchemy.pool import ConnectionPoolEntry
 
 from backend.store.engines import for_reading, for_writing, open_engine, parse_address
 from backend.store.errors import StoreTooNew, StoreUnavailable, Unstorable
@@ -29,6 +30,8 @@ class Database:
     def __init__(self, engine: Engine) -> None:
         self._reader = for_reading(engine)
         self._writer = for_writing(engine)
+        self._is_closed = False
+        event.listen(engine, "checkin", self._close_if_late)
 
     @property
     def engine_name(self) -> str:
@@ -52,8 +55,14 @@ class Database:
             yield conn
 
     def close(self) -> None:
-        """Close every connection."""
+        """Close every connection; one that another thread still uses is closed when that thread is done with it."""
+        self._is_closed = True
         self._writer.dispose()
+
+    def _close_if_late(self, _connection: object, record: ConnectionPoolEntry) -> None:
+        # Without this it would wait in a pool that nobody looks at any more.
+        if self._is_closed:
+            record.invalidate()
 
 
 def open_database(settings: Settings) -> Database:
@@ -68,13 +77,20 @@ def open_database(settings: Settings) -> Database:
     url = parse_address(settings.database_url)
     engine = open_engine(url)
     database = Database(engine)
+    try:
+        _bring_up_to_date(database, engine, url)
+    except BaseException:
+        database.close()
+        raise
+    return database
+
+
+def _bring_up_to_date(database: Database, engine: Engine, url: URL) -> None:
     is_sqlite = database.engine_name == "sqlite"
-    lock = _file_lock(Path(f"{url.database}.lock")) if is_sqlite else nullcontext()
-    with lock:
+    with _file_lock(Path(f"{url.database}.lock")) if is_sqlite else nullcontext():
         if is_sqlite:
             _use_write_ahead_log(engine)
         _migrate(database)
-    return database
 
 
 def current_time(conn: Connection) -> datetime:

@@ -28,7 +28,7 @@ class Durations:
     def seconds_left(self, run: RunRow) -> float | None:
         """Return how long a run will take from where it stands, or None if nothing like it has succeeded [s]."""
         done = run.progress.fraction if run.progress else 0.0
-        for likeness in _likenesses(run.task, run.phase, run.method, run.preset):
+        for likeness in likenesses(run.task, run.phase, run.method, run.preset):
             if likeness in self.by_likeness:
                 return (1.0 - done) * median(self.by_likeness[likeness])
         return None
@@ -45,16 +45,17 @@ def measure_durations(conn: Connection) -> Durations:
     )
     query = select(newest, attempts.c.started_at, attempts.c.ended_at).join(attempts, attempts.c.run_id == newest.c.id)
     seconds: dict[str, float] = {}
-    likenesses: dict[str, Iterable[Like]] = {}
+    likened: dict[str, Iterable[Like]] = {}
     for row in conn.execute(query.where(attempts.c.ended_at.is_not(None))):
         seconds[row.id] = seconds.get(row.id, 0.0) + (row.ended_at - row.started_at).total_seconds()
-        likenesses[row.id] = _likenesses(row.task, row.phase, row.method, row.preset)
+        likened[row.id] = likenesses(row.task, row.phase, row.method, row.preset)
     durations = Durations()
-    for run_id, of_run in likenesses.items():
+    for run_id, of_run in likened.items():
         for likeness in of_run:
             durations.by_likeness.setdefault(likeness, []).append(seconds[run_id])
     return durations
 
 
-def _likenesses(task: str, phase: str, method: str, preset: str) -> tuple[Like, ...]:
+def likenesses(task: str, phase: str, method: str, preset: str) -> tuple[Like, ...]:
+    """Return what a run can be likened by, from the nearest likeness to the farthest."""
     return (task, phase, method, preset), (phase, preset), (preset,)

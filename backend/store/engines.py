@@ -25,8 +25,11 @@ CONNECTION = {
     "application_name": "sldr",
 }
 """How PostgreSQL is connected to, unless the address says otherwise."""
-IDLE_TRANSACTION_S = 60
-"""PostgreSQL ends a transaction whose process has stood still for this long, and frees what it held [s]."""
+IDLE_TRANSACTION_S = 20
+"""PostgreSQL ends a transaction whose process has stood still for this long, and frees what it held [s].
+
+Well below a lease: when the runs of a stopped worker are given to others, it must not hold their rows any more.
+"""
 POOL_SIZE = 5
 """Connections that a process keeps open to PostgreSQL."""
 POOL_OVERFLOW = 35

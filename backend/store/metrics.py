@@ -7,14 +7,16 @@ points stay stored, and are read only when asked for.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from sqlalchemy import ColumnElement, Connection, and_, func, insert, or_, select
+from sqlalchemy import Connection, insert, select
 
 from backend.store.claims import Claim, hold_fence
 from backend.store.database import Database
+from backend.store.metric_summaries import LoggedValues, add_to_summaries, first_step
+from backend.store.superseded import not_superseded
 from backend.store.tables import metric_steps, metric_values
 from sldr_core.records import Step
 
@@ -64,9 +66,9 @@ def append_metrics(db: Database, claim: Claim, points: Sequence[MetricPoint]) ->
         _check_finite(point)
     with db.write() as conn:
         hold_fence(conn, claim)
-        there = _stored_names(conn, claim, points)
-        for point in points:
-            _insert_point(conn, claim, point, there)
+        first_before = first_step(conn, claim.run_id, claim.attempt)
+        added = _insert_points(conn, claim, points)
+        add_to_summaries(conn, claim.run_id, added, first_before)
 
 
 def read_metrics(
@@ -82,7 +84,7 @@ def read_metrics(
     with db.read() as conn:
         there = [metric_steps.c.run_id == run_id, metric_steps.c.id > after]
         if not superseded:
-            there += _not_superseded(conn, run_id)
+            there += not_superseded(conn, run_id)
         query = select(metric_steps).where(*there).order_by(metric_steps.c.id).limit(READ_LIMIT)
         steps = conn.execute(query).all()
         if not steps:
@@ -125,46 +127,46 @@ def _stored_names(conn: Connection, claim: Claim, points: Sequence[MetricPoint])
     return stored
 
 
-def _insert_point(conn: Connection, claim: Claim, point: MetricPoint, stored: dict[int, tuple[int, set[str]]]) -> None:
-    if point.step.cycle not in stored:
-        stored[point.step.cycle] = (_insert_step(conn, claim, point.step), set())
-    step_id, names = stored[point.step.cycle]
-    values = [
-        {"step_id": step_id, "name": name, "value": float(value)}
-        for name, value in point.values.items()
-        if name not in names
+def _insert_points(conn: Connection, claim: Claim, points: Sequence[MetricPoint]) -> list[LoggedValues]:
+    """Store what is not there yet of some points; return that."""
+    stored = _stored_names(conn, claim, points)
+    missing = {point.step.cycle: point.step for point in points if point.step.cycle not in stored}
+    stored |= {cycle: (step_id, set()) for cycle, step_id in _insert_steps(conn, claim, missing.values())}
+    added: list[LoggedValues] = []
+    for point in points:
+        names = stored[point.step.cycle][1]
+        values = {name: float(value) for name, value in point.values.items() if name not in names}
+        names.update(values)
+        added.append((point.step.cycle, values))
+    rows = [
+        {"step_id": stored[cycle][0], "name": name, "value": value}
+        for cycle, values in added
+        for name, value in values.items()
     ]
-    if values:
-        conn.execute(insert(metric_values), values)
-        names.update(point.values)
+    if rows:
+        conn.execute(insert(metric_values), rows)
+    return added
 
 
-def _insert_step(conn: Connection, claim: Claim, step: Step) -> int:
-    row = insert(metric_steps).values(
-        run_id=claim.run_id,
-        attempt=claim.attempt,
-        step=step.cycle,
-        epoch=step.epoch,
-        env_steps=step.env_steps,
-        episodes=step.episodes,
-        updates=step.updates,
-        wall_seconds=step.wall_seconds,
-    )
-    return conn.execute(row.returning(metric_steps.c.id)).scalar_one()
-
-
-def _not_superseded(conn: Connection, run_id: str) -> list[ColumnElement[bool]]:
-    """Return conditions that leave out the points of attempts that a later one has overtaken."""
-    firsts = conn.execute(
-        select(metric_steps.c.attempt, func.min(metric_steps.c.step).label("first"))
-        .where(metric_steps.c.run_id == run_id)
-        .group_by(metric_steps.c.attempt)
-    ).all()
-    return [
-        or_(metric_steps.c.attempt >= row.attempt, and_(metric_steps.c.step < row.first))
-        for row in firsts
-        if row.attempt > min(other.attempt for other in firsts)
+def _insert_steps(conn: Connection, claim: Claim, steps: Iterable[Step]) -> list[tuple[int, int]]:
+    """Store steps in their order, which cursors follow; return the id of each beside its cycle."""
+    rows = [
+        {
+            "run_id": claim.run_id,
+            "attempt": claim.attempt,
+            "step": step.cycle,
+            "epoch": step.epoch,
+            "env_steps": step.env_steps,
+            "episodes": step.episodes,
+            "updates": step.updates,
+            "wall_seconds": step.wall_seconds,
+        }
+        for step in steps
     ]
+    if not rows:
+        return []
+    query = insert(metric_steps).returning(metric_steps.c.step, metric_steps.c.id, sort_by_parameter_order=True)
+    return [(row.step, row.id) for row in conn.execute(query, rows)]
 
 
 def _columns(steps: Sequence[Any], values: Sequence[Any]) -> MetricColumns:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import asdict, dataclass, fields
 
-from sqlalchemy import Connection, insert, select, update
+from sqlalchemy import Connection, FromClause, insert, select, update
 
 from backend.store.claims import Claim, hold_fence
 from backend.store.database import Database
-from backend.store.tables import AnyRow, run_progress
+from backend.store.tables import AnyRow, run_progress, runs
 
 
 @dataclass(frozen=True)
@@ -66,6 +66,11 @@ def select_progress(conn: Connection, run_ids: list[str]) -> dict[str, Progress]
     """Return the progress of those of the runs that have reported any."""
     rows = conn.execute(select(run_progress).where(run_progress.c.run_id.in_(run_ids)))
     return {row.run_id: _progress(row) for row in rows}
+
+
+def with_progress() -> FromClause:
+    """Return the runs, each with its progress beside it if it has reported any."""
+    return runs.outerjoin(run_progress, run_progress.c.run_id == runs.c.id)
 
 
 def _progress(row: AnyRow) -> Progress:

@@ -2,24 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from typing import Any
 
-from sqlalchemy import ColumnElement, Connection, String, cast, func, or_, select
+from sqlalchemy import ColumnElement, Connection, FromClause, func, select
 
-from backend.store.database import Database
+from backend.store.database import Database, current_time
 from backend.store.errors import NotFound
-from backend.store.progress import Progress, select_progress
-from backend.store.run_order import SortKey, comes_after, sorted_by
+from backend.store.labels import select_tags
+from backend.store.metric_columns import MetricColumn, join_summaries
+from backend.store.progress import Progress, select_progress, with_progress
+from backend.store.run_filter import RunFilter, conditions
+from backend.store.run_order import RunOrder, comes_after, order_value, sorted_by
 from backend.store.states import Event, RunState
 from backend.store.tables import AnyRow, run_events, run_needs
 from backend.store.tables import runs as run_table
 from sldr_core.errors import InvalidConfig
 
-SHORTEST_ID_WORD = 4
-"""A shorter word is no beginning of an id: a search for seed 2 should not find every id with a 2."""
+NEWEST_FIRST = RunOrder()
 
 
 @dataclass(frozen=True)
@@ -67,20 +69,12 @@ class RunRow:
     """When a person hid it."""
     config: dict[str, Any]
     config_hash: str
-
-
-@dataclass(frozen=True)
-class RunFilter:
-    """Say which runs are wanted; None leaves a question open."""
-
-    state: RunState | None = None
-    task: str | None = None
-    method: str | None = None
-    phase: str | None = None
-    search: str | None = None
-    """Words that must all occur in task, method, phase, preset or state, or be the seed or the beginning of the id."""
-    deleted: bool = False
-    """Whether to return the runs that a person hid, instead of all others."""
+    settings_hash: str = ""
+    """Equal for runs that differ in nothing but the seed."""
+    tags: tuple[str, ...] = ()
+    """What people call it, in the order of the alphabet."""
+    notes: str = ""
+    """What people wrote about it, as plain text."""
 
 
 @dataclass(frozen=True)
@@ -88,6 +82,8 @@ class RunRows:
     """Hold one page of runs."""
 
     rows: list[RunRow]
+    values: list[tuple[float | None, ...]]
+    """For each run, the values of the columns asked for; None where it has not logged the metric."""
     next_cursor: str | None
     """Pass as `cursor` to get what comes next; None on the last page."""
     total: int
@@ -132,24 +128,34 @@ def list_runs(
     wanted: RunFilter,
     limit: int,
     cursor: str | None = None,
-    sort: SortKey = "launched",
-    descending: bool = True,
+    order: RunOrder = NEWEST_FIRST,
+    columns: Sequence[MetricColumn] = (),
+    offset: int = 0,
 ) -> RunRows:
     """Return one page of runs, newest first unless another order is asked for; equals come newest first.
+
+    Args:
+        cursor: where the page before ended; good for going on while runs are added.
+        columns: metrics of which each run's value is wanted too.
+        offset: runs to leave out at the beginning; good for a jump into a long table.
 
     Raises:
         InvalidConfig: the cursor did not come from an earlier page.
     """
-    conditions = _conditions(wanted)
-    query = select(run_table).where(*conditions).order_by(*sorted_by(sort, descending)).limit(limit + 1)
-    if cursor is not None:
-        query = query.where(comes_after(sort, descending, _number(cursor)))
     with db.read() as conn:
-        found = conn.execute(query).all()
-        total = conn.execute(select(func.count()).select_from(run_table).where(*conditions)).scalar_one()
+        source, metrics = _source((*columns, *_sorting_columns(order)))
+        value = order_value(order, metrics, current_time(conn))
+        query = select(run_table, *(metrics[column].label(f"value_{i}") for i, column in enumerate(columns)))
+        query = query.select_from(source).where(*conditions(wanted))
+        page = query.order_by(*sorted_by(value, order.descending)).limit(limit + 1).offset(offset)
+        if cursor is not None:
+            page = page.where(_behind(conn, source, value, order, _number(cursor)))
+        found = conn.execute(page).all()
+        total = _count(conn, wanted)
         rows = run_rows(conn, found[:limit])
+    values = [tuple(getattr(row, f"value_{i}") for i in range(len(columns))) for row in found[:limit]]
     next_cursor = str(found[limit - 1].number) if len(found) > limit else None
-    return RunRows(rows=rows, next_cursor=next_cursor, total=total)
+    return RunRows(rows=rows, values=values, next_cursor=next_cursor, total=total)
 
 
 def list_events(db: Database, run_id: str) -> list[EventRow]:
@@ -175,23 +181,26 @@ def _number(cursor: str) -> int:
     return int(cursor)
 
 
-def _conditions(wanted: RunFilter) -> list[ColumnElement[bool]]:
-    exact = {"state": wanted.state, "task": wanted.task, "method": wanted.method, "phase": wanted.phase}
-    conditions: list[ColumnElement[bool]] = [
-        run_table.c[name] == value for name, value in exact.items() if value is not None
-    ]
-    hidden = run_table.c.deleted_at.is_not(None)
-    conditions.append(hidden if wanted.deleted else ~hidden)
-    conditions.extend(_mentions(word) for word in (wanted.search or "").split())
-    return conditions
+def _sorting_columns(order: RunOrder) -> tuple[MetricColumn, ...]:
+    return (order.by,) if isinstance(order.by, MetricColumn) else ()
 
 
-def _mentions(word: str) -> ColumnElement[bool]:
-    columns = ("task", "method", "phase", "preset", "state")
-    matches = [run_table.c[name].icontains(word, autoescape=True) for name in columns]
-    if len(word) >= SHORTEST_ID_WORD:
-        matches.append(run_table.c.id.istartswith(word, autoescape=True))
-    return or_(*matches, cast(run_table.c.seed, String) == word)
+def _source(columns: Sequence[MetricColumn]) -> tuple[FromClause, Mapping[MetricColumn, ColumnElement[float]]]:
+    """Return the runs with their progress and what the columns need beside them, and each column's value."""
+    return join_summaries(with_progress(), columns)
+
+
+def _behind(
+    conn: Connection, source: FromClause, value: ColumnElement[Any], order: RunOrder, number: int
+) -> ColumnElement[bool]:
+    """Return the condition that a run stands behind the one with this number, as both are now."""
+    last = conn.execute(select(value).select_from(source).where(run_table.c.number == number)).scalar_one_or_none()
+    return comes_after(value, order.descending, last, number)
+
+
+def _count(conn: Connection, wanted: RunFilter) -> int:
+    query = select(func.count()).select_from(with_progress()).where(*conditions(wanted))
+    return conn.execute(query).scalar_one()
 
 
 def run_rows(conn: Connection, rows: Sequence[AnyRow]) -> list[RunRow]:
@@ -207,10 +216,11 @@ def run_rows(conn: Connection, rows: Sequence[AnyRow]) -> list[RunRow]:
     )
     for edge in conn.execute(query):
         needs.setdefault(edge.run_id, []).append(edge)
-    return [_run_row(row, needs.get(row.id, []), progress.get(row.id)) for row in rows]
+    tags = select_tags(conn, ids)
+    return [_run_row(row, needs.get(row.id, []), progress.get(row.id), tags.get(row.id, ())) for row in rows]
 
 
-def _run_row(row: AnyRow, needs: Sequence[AnyRow], progress: Progress | None) -> RunRow:
+def _run_row(row: AnyRow, needs: Sequence[AnyRow], progress: Progress | None, tags: tuple[str, ...]) -> RunRow:
     unmet = tuple(edge.needs_run_id for edge in needs if edge.state != RunState.SUCCEEDED)
     return RunRow(
         id=row.id,
@@ -240,4 +250,7 @@ def _run_row(row: AnyRow, needs: Sequence[AnyRow], progress: Progress | None) ->
         deleted_at=row.deleted_at,
         config=row.config,
         config_hash=row.config_hash,
+        settings_hash=row.settings_hash or "",
+        tags=tags,
+        notes=row.notes or "",
     )

@@ -23,9 +23,10 @@ from sqlalchemy import (
     Text,
     TypeDecorator,
     false,
+    literal_column,
 )
 
-SCHEMA_REVISION = "0006"
+SCHEMA_REVISION = "0008"
 """The migration that these tables correspond to."""
 
 AnyRow = Row[*tuple[Any, ...]]
@@ -33,6 +34,9 @@ AnyRow = Row[*tuple[Any, ...]]
 
 ID_LENGTH = 32
 NAME_LENGTH = 200
+
+TEST_METRIC_INDEX_CONDITION = "metric_values.name >= 'test/' AND metric_values.name < 'test0'"
+"""Which metrics have an index by name: those of tests, few among many. A query that says so is answered from it."""
 
 
 class UtcDateTime(TypeDecorator[datetime]):
@@ -78,6 +82,7 @@ runs = Table(
     Column("preset", String(NAME_LENGTH), nullable=False),
     Column("config", JSON, nullable=False),
     Column("config_hash", String(ID_LENGTH), nullable=False),
+    Column("settings_hash", String(ID_LENGTH)),
     Column("state", String(ID_LENGTH), nullable=False),
     Column("reason", Text),
     Column("success_rate", Float),
@@ -99,6 +104,7 @@ runs = Table(
     Column("started_at", UtcDateTime),
     Column("ended_at", UtcDateTime),
     Column("deleted_at", UtcDateTime),
+    Column("notes", Text),
     Index(None, "state", "number"),
     Index(None, "state", "rank", "queue_position", "number"),
     Index(None, "queue_position"),
@@ -180,6 +186,45 @@ metric_values = Table(
     sqlite_with_rowid=False,
 )
 
+# A curve of tests over many runs is read from this index alone.
+Index(
+    "ix_metric_values_tests",
+    metric_values.c.name,
+    metric_values.c.step_id,
+    metric_values.c.value,
+    sqlite_where=literal_column(TEST_METRIC_INDEX_CONDITION.replace("metric_values.", "")),
+    postgresql_where=literal_column(TEST_METRIC_INDEX_CONDITION.replace("metric_values.", "")),
+)
+
+metric_summaries = Table(
+    "metric_summaries",
+    metadata,
+    Column("run_id", String(ID_LENGTH), ForeignKey("runs.id"), primary_key=True),
+    Column("name", String(NAME_LENGTH), primary_key=True, index=True),
+    Column("points", Integer, nullable=False),
+    Column("last_step", Integer, nullable=False),
+    Column("last", Float, nullable=False),
+    Column("lowest", Float, nullable=False),
+    Column("highest", Float, nullable=False),
+    Column("tail", JSON, nullable=False),
+)
+
+run_tags = Table(
+    "run_tags",
+    metadata,
+    Column("run_id", String(ID_LENGTH), ForeignKey("runs.id"), primary_key=True),
+    Column("tag", String(NAME_LENGTH), primary_key=True, index=True),
+)
+
+saved_views = Table(
+    "saved_views",
+    metadata,
+    Column("id", String(ID_LENGTH), primary_key=True),
+    Column("name", String(NAME_LENGTH), nullable=False, unique=True),
+    Column("search", Text, nullable=False),
+    Column("created_at", UtcDateTime, nullable=False),
+)
+
 run_files = Table(
     "run_files",
     metadata,
@@ -191,6 +236,23 @@ run_files = Table(
     Column("sha256", String(64), nullable=False),
     Column("attempt", Integer, nullable=False),
     Column("created_at", UtcDateTime, nullable=False),
+)
+
+episodes = Table(
+    "episodes",
+    metadata,
+    Column("run_id", String(ID_LENGTH), ForeignKey("runs.id"), primary_key=True),
+    Column("epoch", Integer, primary_key=True, autoincrement=False),
+    Column("number", Integer, primary_key=True, autoincrement=False),
+    Column("attempt", Integer, nullable=False),
+    Column("file", String(NAME_LENGTH), nullable=False),
+    Column("success", Boolean, nullable=False),
+    Column("tag", String(ID_LENGTH), nullable=False),
+    Column("task_return", Float, nullable=False),
+    Column("worst_q", Float),
+    Column("worst_q_step", Integer),
+    Column("length", Integer, nullable=False),
+    Column("resimulates", Boolean, nullable=False),
 )
 
 workers = Table(
@@ -234,4 +296,47 @@ viewer_sessions = Table(
     Column("created_at", UtcDateTime, nullable=False),
     Column("touched_at", UtcDateTime, nullable=False),
     Column("ended_at", UtcDateTime),
+)
+
+studies = Table(
+    "studies",
+    metadata,
+    Column("number", Integer, primary_key=True, autoincrement=True),
+    Column("id", String(ID_LENGTH), nullable=False, unique=True),
+    Column("name", String(NAME_LENGTH), nullable=False),
+    Column("note", Text, nullable=False),
+    Column("preset", String(NAME_LENGTH), nullable=False),
+    Column("spec", JSON, nullable=False),
+    Column("created_at", UtcDateTime, nullable=False),
+    Column("deleted_at", UtcDateTime),
+)
+
+study_runs = Table(
+    "study_runs",
+    metadata,
+    Column("study_id", String(ID_LENGTH), ForeignKey("studies.id"), primary_key=True),
+    Column("task", String(NAME_LENGTH), primary_key=True),
+    Column("method", String(NAME_LENGTH), primary_key=True),
+    Column("variant", String(NAME_LENGTH), primary_key=True),
+    Column("seed", BigInteger, primary_key=True, autoincrement=False),
+    Column("run_id", String(ID_LENGTH), ForeignKey("runs.id"), nullable=False, index=True),
+)
+"""Which run stands at which place of a study: one at most, so that no place is trained twice."""
+
+media_jobs = Table(
+    "media_jobs",
+    metadata,
+    Column("id", String(ID_LENGTH), primary_key=True),
+    Column("run_id", String(ID_LENGTH), ForeignKey("runs.id"), nullable=False, index=True),
+    Column("kind", String(ID_LENGTH), nullable=False),
+    Column("source", String(64), nullable=False),
+    Column("file_name", String(NAME_LENGTH), nullable=False),
+    Column("arguments", JSON, nullable=False),
+    Column("state", String(ID_LENGTH), nullable=False),
+    Column("reason", Text),
+    Column("fence", Integer, nullable=False, server_default="0"),
+    Column("lease_until", UtcDateTime),
+    Column("created_at", UtcDateTime, nullable=False),
+    Column("ended_at", UtcDateTime),
+    Index(None, "state", "created_at"),
 )

@@ -47,6 +47,7 @@ from sldr_core.config.train import (
     config_hash,
     config_schema,
     config_to_dict,
+    settings_hash,
 )
 
 __all__ = [
@@ -94,5 +95,6 @@ __all__ = [
     "find_method",
     "find_task",
     "method_switches",
+    "settings_hash",
     "stream_names",
 ]

@@ -235,7 +235,16 @@ def config_schema() -> dict[str, Any]:
 
 def config_hash(config: TrainConfig) -> str:
     """Return 16 hex digits that are equal for configs that compute the same training."""
-    canonical = json.dumps(config_to_dict(config), sort_keys=True, separators=(",", ":"))
+    return _digest(config_to_dict(config))
+
+
+def settings_hash(config: TrainConfig) -> str:
+    """Return 16 hex digits that are equal for configs that differ in nothing but the seed."""
+    return _digest({name: value for name, value in config_to_dict(config).items() if name != "seed"})
+
+
+def _digest(values: dict[str, Any]) -> str:
+    canonical = json.dumps(values, sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(canonical.encode()).hexdigest()[:16]
 
 

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import copy
+from collections.abc import Mapping
 from typing import Any, cast
 
 from pydantic import ConfigDict
@@ -164,6 +165,17 @@ def make_config(
     _merge(settings, getattr(find_preset(preset), phase))
     _merge(settings, overrides or {})
     return config_from_dict(settings)
+
+
+def lay_over(settings: Mapping[str, Any], changes: Mapping[str, Any]) -> Settings:
+    """Return settings with nested `changes` laid over them; neither is changed.
+
+    Raises:
+        InvalidConfig: a value stands where the other has a group of settings.
+    """
+    laid = copy.deepcopy(dict(settings))
+    _merge(laid, dict(changes))
+    return laid
 
 
 def locomotion_tasks(config: TrainConfig) -> tuple[str, ...]:

@@ -5,6 +5,7 @@ from sldr_core.training.evaluation import EvaluationResult, evaluate
 from sldr_core.training.loop import TrainResult, train
 from sldr_core.training.policy import Policy, load_policy
 from sldr_core.training.recorder import Recorder, StopReason
+from sldr_core.training.resimulation import resimulate
 
 __all__ = [
     "DirectoryRecorder",
@@ -15,6 +16,7 @@ __all__ = [
     "TrainResult",
     "evaluate",
     "load_policy",
+    "resimulate",
     "train",
     "write_atomically",
 ]

@@ -19,6 +19,7 @@ from sldr_core.errors import BadFile, LocomotionMissing
 from sldr_core.nets.locomotion_model import LocomotionModel, load_locomotion_model
 from sldr_core.nets.views import view_of
 from sldr_core.presets import locomotion_tasks
+from sldr_core.presets.budget import replay_episodes
 from sldr_core.replay import ReplayBuffer, Sampler, SamplerOrder, build_curriculum, build_hindsight, replay_bytes
 from sldr_core.streams import Stream, StreamOrder, TaskStream, build_rnd, build_sldr
 from sldr_core.training.compute import Compute, resolve_compute
@@ -33,12 +34,6 @@ SAMPLERS: dict[SamplerName, Callable[[SamplerOrder], Sampler]] = {
     "curriculum": build_curriculum,
 }
 """How the sampler that a method names is put together."""
-
-CHECKPOINT_CYCLES = 10
-"""A checkpoint is written at least once in so many cycles."""
-
-CHECKPOINTS_KEPT = 2
-"""The newest, and the one before for when it is damaged: the replay file serves both."""
 
 TEST_SEED_OFFSET = 2**31
 """Test episodes draw from generators that no training episode uses."""
@@ -129,9 +124,8 @@ def _make_buffer(
     learners: Sequence[Mapping[str, Any]],
 ) -> ReplayBuffer:
     """Make the replay file, once it is known that it and every other file of the run fits."""
-    loop, shapes = config.loop, _episode_shapes(envs, streams)
-    capacity = config.replay.capacity // envs.episode_length
-    slack = (CHECKPOINTS_KEPT * CHECKPOINT_CYCLES + loop.warmup_cycles + 1) * loop.episodes_per_cycle
+    shapes = _episode_shapes(envs, streams)
+    capacity, slack = replay_episodes(config)
     planned = planned_sizes(
         config, replay_bytes(shapes, capacity + slack), recorded_bytes(envs, streams), envs.state(), learners
     )

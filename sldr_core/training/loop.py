@@ -13,8 +13,9 @@ import torch
 from sldr_core.config import TrainConfig
 from sldr_core.episodes import kept_epochs, tag_shares
 from sldr_core.nets.locomotion_model import LocomotionModel, LocomotionNets, Measured
+from sldr_core.presets.budget import CHECKPOINT_CYCLES
 from sldr_core.records import Step
-from sldr_core.training.build import CHECKPOINT_CYCLES, Parts, build_training
+from sldr_core.training.build import Parts, build_training
 from sldr_core.training.checkpoint import (
     Counters,
     keep_previous,

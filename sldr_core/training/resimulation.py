@@ -6,9 +6,26 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from sldr_core.config import TrainConfig
+from sldr_core.config import TrainConfig, config_from_dict
 from sldr_core.envs import Envs, make_envs
-from sldr_core.episodes import Course
+from sldr_core.episodes import Course, RecordedTest
+from sldr_core.errors import BadFile, InvalidConfig
+
+
+def resimulate(test: RecordedTest, threads: int = 1) -> list[int | None]:
+    """Simulate a recorded test's episodes again; return the first moment of each that differs, or None.
+
+    Raises:
+        BadFile: its config is none of this version's, or its states are of another scene.
+    """
+    try:
+        config = config_from_dict(dict(test.origin.config))
+        return first_differences(make_resimulation(config, len(test.episodes), threads), test.episodes)
+    except (InvalidConfig, ValueError) as err:
+        raise BadFile(
+            f"The episodes of epoch {test.origin.epoch} cannot be simulated by this version ({err}); "
+            "use the one that recorded them."
+        ) from err
 
 
 def make_resimulation(config: TrainConfig, episodes: int, threads: int = 1) -> Envs:

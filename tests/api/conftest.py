@@ -40,6 +40,14 @@ def unused_service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service
         yield service
 
 
+@pytest.fixture(scope="module")
+def module_service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+    """Return the API over a store that the tests of one file share."""
+    home = tmp_path_factory.mktemp("shared")
+    with _open(Settings(home=home, database_url=sqlite_url(home)), home / "dist") as service:
+        yield service
+
+
 @contextmanager
 def _open(settings: Settings, built_page: Path) -> Iterator[Service]:
     app = create_app(settings, built_page)

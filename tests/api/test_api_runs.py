@@ -71,7 +71,7 @@ def test_a_run_tells_what_there_is_to_watch(service: Service):
     service.launch()
     held = service.claim()
     service.write_file(held, "policy-newest.pt", b"policy")
-    service.write_file(held, "curves-attempt-1.rrd", b"recording")
+    service.write_file(held, "recording-attempt-1.rrd", b"recording")
     run = service.get(f"/api/runs/{held.run_id}")
     assert (run["has_policy"], run["has_recording"]) == (True, True)
 

@@ -45,7 +45,10 @@ def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     """Return where an API listens that holds a run."""
     home = tmp_path_factory.mktemp("described")
     app = create_app(Settings(home=home, database_url=sqlite_url(home)), home / "dist")
-    with serving(app) as address, new_client(address) as client:
+    with pytest.MonkeyPatch.context() as patch, serving(app) as address, new_client(address) as client:
+        # Drawing takes seconds and has tests of its own.
+        for module in ("backend.api.routes.compare_exports", "backend.figures.bundle"):
+            patch.setattr(f"{module}.draw_apart", lambda drawings: [b"drawn"] * len(drawings))
         service = Service(client=client, settings=app.state.service.settings, database=app.state.service.database)
         service.launch(method="her-sldr")
         yield address

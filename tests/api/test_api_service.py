@@ -89,7 +89,7 @@ def test_the_signing_secret_is_readable_by_its_owner_only(unused_service: Servic
 def test_the_api_loads_no_heavy_package_and_stays_small():
     program = (
         "import json, sys, psutil, backend.api.__main__;"
-        "heavy = ['torch', 'mujoco', 'mjbatch', 'viser', 'rerun', 'gymnasium', 'ray'];"
+        "heavy = ['torch', 'mujoco', 'mjbatch', 'viser', 'rerun', 'gymnasium', 'ray', 'matplotlib'];"
         "loaded = [name for name in heavy if name in sys.modules];"
         "print(json.dumps([loaded, psutil.Process().memory_info().rss / 1e6]))"
     )

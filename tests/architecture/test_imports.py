@@ -10,7 +10,7 @@ import sys
 import pytest
 
 ROOMS = ("sldr_core", "backend", "worker")
-HEAVY = ("torch", "mujoco", "rerun", "viser")
+HEAVY = ("torch", "mujoco", "rerun", "viser", "matplotlib")
 LIGHT_MODULES = ("sldr_core", "sldr_core.config", "sldr_core.presets", "backend.store", "backend.api.app")
 TIMEOUT_S = 60
 

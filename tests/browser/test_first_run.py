@@ -84,10 +84,10 @@ def test_the_policy_moves_in_3d(run_address: str, page: Page) -> None:
     expect(page.locator(BADGE).first).to_have_text("succeeded", timeout=TRAINED_MS)
     page.get_by_role("tab", name="3D").click()
     page.get_by_role("button", name="Watch the newest policy").click()
-    scene = page.frame_locator("iframe[title='3D view of the newest policy']")
+    scene = page.frame_locator("iframe[title='3D view']")
     canvas = scene.locator("canvas").first
     expect(canvas).to_be_visible(timeout=2 * SOON_MS)
-    box = page.locator("iframe[title='3D view of the newest policy']").bounding_box()
+    box = page.locator("iframe[title='3D view']").bounding_box()
     assert box is not None
     # Software rendering draws a few frames a second: wait for pictures, never for a number of frames.
     pictures: set[bytes] = set()
@@ -106,8 +106,8 @@ def test_the_rerun_file_is_offered(run_address: str, page: Page, tmp_path: Path)
     expect(page.locator(BADGE).first).to_have_text("succeeded", timeout=TRAINED_MS)
     page.get_by_role("tab", name="Files").click()
     with page.expect_download(timeout=SOON_MS) as download:
-        page.get_by_role("link", name=re.compile(r"curves-attempt-1\.rrd")).first.click()
-    saved = tmp_path / "curves.rrd"
+        page.get_by_role("link", name=re.compile(r"recording-attempt-1\.rrd")).first.click()
+    saved = tmp_path / "recording.rrd"
     download.value.save_as(saved)
     assert saved.read_bytes()[:4] == b"RRF2"
 

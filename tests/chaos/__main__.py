@@ -18,7 +18,7 @@ from pathlib import Path
 from chaos_claims import measure_claims
 from chaos_crowd import Crowd, press
 from chaos_kills import Attack, attack
-from chaos_table import Finding, as_text, write_results
+from chaos_table import Finding, as_text, keep_findings
 
 from backend.store.settings import DATABASE_VARIABLE, Settings, sqlite_url
 
@@ -37,7 +37,7 @@ def main() -> int:
         if not finding.complaints:
             shutil.rmtree(home)
     if options.write is not None:
-        write_results(options.write, findings)
+        keep_findings(options.write, findings)
     return 1 if any(finding.complaints for finding in findings) else 0
 
 

@@ -67,7 +67,7 @@ def press(settings: Settings, order: Crowd, say: Callable[[str], None]) -> Findi
         _wait_for_apis(service)
         say(f"{order.apis} APIs and {order.workers} workers at {settings.database_url} for {order.seconds:.0f} s")
         _ask_for(order, service, answers)
-    ended = list_runs(db, RunFilter(state=RunState.SUCCEEDED), 1).total
+    ended = list_runs(db, RunFilter(states=[RunState.SUCCEEDED]), 1).total
     db.close()
     locked = service.logs().count(LOCKED)
     found = [f"'{LOCKED}' was printed {locked} times."] if locked else []

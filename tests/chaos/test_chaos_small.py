@@ -9,8 +9,9 @@ from chaos_claims import measure_claims
 from chaos_crowd import Crowd, press
 from chaos_evidence import Witness, complaints
 from chaos_kills import Attack, attack
-from chaos_table import BEGIN, END, Finding, as_text, write_results
+from chaos_table import COMMAND, Finding, as_text, keep_findings
 from chaos_training import METRIC, expected_curve
+from measured_page import END, begin_mark
 from store_engines import ENGINES
 
 from backend.store.claims import Claim
@@ -98,11 +99,11 @@ def test_what_must_not_be_is_found(settings: Settings, crime: str | None, compla
 
 def test_results_replace_those_before(tmp_path: Path) -> None:
     page = tmp_path / "page.md"
-    page.write_text(f"# Title\n\n{BEGIN}\nold\n{END}\n\nThe end.\n")
+    page.write_text(f"# Title\n\n{begin_mark(COMMAND)}\nold\n{END}\n\nThe end.\n")
     finding = Finding("A long queue", [("claims per second", "400")], [])
 
-    write_results(page, [finding])
-    write_results(page, [finding])
+    keep_findings(page, [finding])
+    keep_findings(page, [finding])
 
     text = page.read_text()
     assert text.count("claims per second | 400") == 1

@@ -8,7 +8,9 @@ import sys
 from pathlib import Path
 
 import pytest
+from recorded_tests import made_episode, made_test
 
+from sldr_core.episodes import write_episodes
 from worker.cli import COMMANDS, main
 
 
@@ -74,6 +76,7 @@ TRAIN = ("train", "--task", "FetchPush", "--method", "her", "--preset", "smoke")
         ((*TRAIN, "--locomotion-model", "nowhere.pt"), "There is no locomotion model nowhere.pt"),
         (("evaluate", "nowhere.pt"), "There is no file nowhere.pt"),
         (("evaluate", "nowhere.pt", "--episodes", "0"), "episodes: at least 1"),
+        (("replay", "nowhere.npz"), "There is no file nowhere.npz; give a file of recorded episodes"),
         (("render", "--task", "FetchPus", "--out", "a.png"), "Did you mean 'FetchPush'?"),
         (("render", "--task", "FetchPush", "--out", "no/such/a.png"), "there is no directory"),
         (("render", "--task", "FetchPush", "--out", "a.png", "--width", "0"), "at least one pixel"),
@@ -102,3 +105,23 @@ def test_words_that_are_no_options_end_with_the_same_code(capsys: pytest.Capture
     assert code == 2
     assert "--seed" in err
     assert "Traceback" not in err
+
+
+def test_an_episode_that_comes_out_differently_is_told(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    write_episodes(tmp_path / "episodes.npz", made_test(made_episode(0), made_episode(3, tag="too_slow")))
+    monkeypatch.setattr("sldr_core.training.resimulate", lambda test: [None, 2])
+    code, out, _ = run(capsys, "replay", str(tmp_path / "episodes.npz"))
+    assert code == 1
+    assert out.splitlines() == [
+        "episode 0: other, 4 steps, the same to the last bit",
+        "episode 3: too slow, 4 steps, different from step 2 on",
+    ]
+
+
+def test_episodes_of_another_scene_are_refused_in_one_sentence(capsys: pytest.CaptureFixture[str], tmp_path: Path):
+    write_episodes(tmp_path / "episodes.npz", made_test())
+    code, out, err = run(capsys, "replay", str(tmp_path / "episodes.npz"))
+    assert (code, out, len(err.splitlines())) == (2, "", 1)
+    assert "cannot be simulated by this version" in err

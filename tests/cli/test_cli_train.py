@@ -56,6 +56,9 @@ class KeptRecorder:
     def save_file(self, name: str, kind: str, write: object) -> Path:
         return self.directory / name
 
+    def record_episodes(self, test: object, kept_epochs: object) -> None:
+        raise AssertionError("no test was held")
+
     def stop_requested(self) -> None:
         return None
 
@@ -121,6 +124,11 @@ def test_a_training_stopped_by_ctrl_c_goes_on_from_its_checkpoint(tmp_path: Path
     code, out_text, err_text = sldr(capsys, "evaluate", str(out / "policy-newest.pt"), "--episodes", "4")
     assert code == 0, err_text
     assert "of 4 episodes, 95 % interval" in out_text
+
+    code, out_text, err_text = sldr(capsys, "replay", str(out / "episodes-epoch-0012.npz"))
+    assert code == 0, err_text
+    assert [line.split(":")[0] for line in out_text.splitlines()] == [f"episode {index}" for index in range(4)]
+    assert out_text.count("50 steps, the same to the last bit") == 4
 
 
 def test_a_corrupt_checkpoint_is_told_in_one_sentence(tmp_path: Path, capsys: pytest.CaptureFixture[str]):

@@ -68,3 +68,23 @@ def test_an_unknown_part_is_answered_with_those_there_are(tree: Path) -> None:
 
     assert result.returncode == 2
     assert result.stderr.startswith("No check is called 'typos'. There are: lint format imports types ")
+
+
+def set_pytest(tree: Path, beside_others: int, alone: int) -> None:
+    """Let pytest end so with all tests in several processes, and so with those that failed."""
+    (tree / ".ci" / "find-chromium.sh").write_text("#!/bin/bash\necho chromium\n")
+    (tree / ".ci" / "find-chromium.sh").chmod(0o755)
+    set_result(tree, "pytest", 0)
+    (tree / ".venv" / "bin" / "pytest").write_text(
+        f"#!/bin/bash\n[[ $* == *--last-failed* ]] && exit {alone}\nexit {beside_others}\n"
+    )
+
+
+@pytest.mark.parametrize(("beside_others", "alone", "expected"), [(0, 1, 0), (1, 0, 0), (1, 1, 1), (4, 5, 1)])
+def test_a_test_that_fails_is_asked_once_more_alone(tree: Path, beside_others: int, alone: int, expected: int) -> None:
+    set_pytest(tree, beside_others, alone)
+
+    result = check(tree, "pytest")
+
+    assert result.returncode == expected
+    assert ("passed alone" in result.stderr) is (beside_others == 1 and alone == 0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sqlite3
 import subprocess
 import sys
 import threading
@@ -10,6 +11,7 @@ import time
 from datetime import datetime
 from pathlib import Path
 
+import psycopg
 import pytest
 from alembic.autogenerate import compare_metadata
 from alembic.config import Config
@@ -29,6 +31,7 @@ from backend.store.runs import get_run
 from backend.store.settings import Settings
 from backend.store.tables import SCHEMA_REVISION, metadata, run_needs, runs
 
+DRIVER_ERRORS = (sqlite3.ProgrammingError, psycopg.OperationalError)
 OPEN = "from backend.store.database import open_database; from backend.store.settings import load_settings; "
 
 
@@ -124,6 +127,17 @@ def _write_half(conn: Connection) -> None:
     raise RuntimeError
 
 
+def test_a_connection_that_is_given_back_after_the_end_is_closed(settings: Settings) -> None:
+    db = open_database(settings)
+    with db.read() as conn:
+        db.close()
+        driver_connection = conn.connection.driver_connection
+    assert driver_connection is not None
+
+    with pytest.raises(DRIVER_ERRORS, match="closed"):
+        driver_connection.execute("SELECT 1")
+
+
 def test_a_failed_transaction_leaves_nothing(db: Database) -> None:
     run_id = queued_run(db)
 
@@ -157,6 +171,19 @@ def test_a_store_of_a_later_version_is_left_alone(db: Database, settings: Settin
 
     with pytest.raises(StoreTooNew, match="of revision 9999, which this version does not know"):
         open_database(settings)
+
+
+@pytest.mark.parametrize("engine", ["postgresql"], scope="session")
+def test_a_store_that_cannot_be_opened_is_let_go(db: Database, settings: Settings) -> None:
+    with db.write() as conn:
+        conn.execute(text("UPDATE alembic_version SET version_num = '9999'"))
+
+    with pytest.raises(StoreTooNew) as refusal:
+        open_database(settings)
+
+    connected = text("SELECT count(*) FROM pg_stat_activity WHERE datname = current_database()")
+    with db.read() as conn:
+        assert conn.execute(connected).scalar_one() == 1, refusal
 
 
 def test_times_without_a_zone_are_refused(db: Database) -> None:

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from functools import partial
-from threading import Barrier
 
-from store_cases import claim_next, order
+from store_cases import at_once, claim_next, order
 
 from backend.store.database import Database
 from backend.store.launches import LaunchOrder, launch
@@ -20,18 +17,6 @@ ROUNDS = 5
 """Often enough that the two meet."""
 
 
-def at_once(*calls: Callable[[], object]) -> list[object]:
-    """Make calls in threads that begin together; return what they returned."""
-    barrier = Barrier(len(calls))
-
-    def begin(call: Callable[[], object]) -> object:
-        barrier.wait()
-        return call()
-
-    with ThreadPoolExecutor(len(calls)) as threads:
-        return [future.result() for future in [threads.submit(begin, call) for call in calls]]
-
-
 def with_sldr(task: str, seed: int, threads: int) -> LaunchOrder:
     """Ask for a run whose locomotion runs no order with other threads shares."""
     return order(method="her-sldr", task=task, seeds=(seed,), overrides={"compute": {"threads": threads}})
@@ -41,8 +26,8 @@ def test_two_launches_at_once_share_one_locomotion_run(db: Database) -> None:
     for threads in range(1, ROUNDS + 1):
         at_once(*[partial(launch, db, with_sldr("FetchPush", seed, threads)) for seed in range(2)])
 
-    assert list_runs(db, RunFilter(phase="manipulation"), 1).total == 2 * ROUNDS
-    assert list_runs(db, RunFilter(phase="locomotion"), 1).total == ROUNDS
+    assert list_runs(db, RunFilter(phases=["manipulation"]), 1).total == 2 * ROUNDS
+    assert list_runs(db, RunFilter(phases=["locomotion"]), 1).total == ROUNDS
 
 
 def test_a_run_starts_when_both_that_it_needs_end_at_once(db: Database) -> None:

@@ -8,17 +8,17 @@ from store_cases import claim_next, order, put_in_state
 from backend.store.database import Database
 from backend.store.launches import launch
 from backend.store.progress import Progress, report_progress
-from backend.store.run_order import SortKey
+from backend.store.run_order import parse_order
 from backend.store.runs import RunFilter, list_runs
 from backend.store.states import RunState
 
 
-def listed(db: Database, sort: SortKey, descending: bool, limit: int = 2) -> list[str]:
+def listed(db: Database, sort: str, descending: bool, limit: int = 2) -> list[str]:
     """Return the ids of all runs, read in small pages."""
     ids: list[str] = []
     cursor = None
     while True:
-        page = list_runs(db, RunFilter(), limit, cursor, sort, descending)
+        page = list_runs(db, RunFilter(), limit, cursor, parse_order(sort, descending))
         ids += [row.id for row in page.rows]
         if page.next_cursor is None:
             return ids

@@ -42,10 +42,10 @@ def test_a_filter_leaves_out_the_others(db: Database) -> None:
     (her,) = launch(db, order())
     locomotion, blocked = launch(db, order(method="her-sldr"))
 
-    assert ids(db, RunFilter(method="her-sldr")) == [blocked]
-    assert ids(db, RunFilter(phase="locomotion")) == [locomotion]
-    assert ids(db, RunFilter(state=RunState.QUEUED, phase="manipulation")) == [her]
-    assert ids(db, RunFilter(task="FetchSlide")) == []
+    assert ids(db, RunFilter(methods=["her-sldr"])) == [blocked]
+    assert ids(db, RunFilter(phases=["locomotion"])) == [locomotion]
+    assert ids(db, RunFilter(states=[RunState.QUEUED], phases=["manipulation"])) == [her]
+    assert ids(db, RunFilter(tasks=["FetchSlide"])) == []
 
 
 def test_a_search_needs_every_word(db: Database) -> None:

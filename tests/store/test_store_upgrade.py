@@ -45,7 +45,7 @@ def db(sqlite_stores: SqliteStores, tmp_path: Path) -> Iterator[Database]:
 
 
 def only(db: Database, state: RunState) -> RunRow:
-    (row,) = list_runs(db, RunFilter(state=state), 10).rows
+    (row,) = list_runs(db, RunFilter(states=[state]), 10).rows
     return row
 
 
@@ -70,7 +70,7 @@ def test_the_store_is_brought_to_the_newest_version(db: Database) -> None:
 
 
 def test_runs_keep_their_order_and_those_for_a_gpu_are_known(db: Database) -> None:
-    queued = list_runs(db, RunFilter(state=RunState.QUEUED), 10).rows[::-1]
+    queued = list_runs(db, RunFilter(states=[RunState.QUEUED]), 10).rows[::-1]
 
     assert [(run.method, run.seed, run.needs_gpu, run.priority) for run in queued] == [
         ("her", 1, False, 0),

@@ -107,7 +107,7 @@ def test_a_session_is_served_to_a_page_and_ends_after_the_last_one_left(make_hos
     asked = viewer_sessions.request_session(database, run_id)
     session = tick_until(host, database, asked.id, "ready", "failed")
     assert session.state == "ready", session.message
-    assert session.message == "Live: the object moving itself on FetchPush, always with the newest policy of the run."
+    assert session.message == "Live: the object moving itself on FetchPush, always with the newest policy."
     assert "<html" in httpx.get(f"http://127.0.0.1:{session.port}/", trust_env=False).text.lower()
     process = host.served[asked.id].process.pid
     with watch(session.port) as page:

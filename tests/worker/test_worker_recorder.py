@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import time
-from collections.abc import Generator, Sequence
+from collections.abc import Generator
 from contextlib import contextmanager
 from dataclasses import replace
 from datetime import datetime
@@ -29,7 +29,8 @@ from sldr_core.errors import BadFile, LocomotionMissing, TrainingDiverged
 from sldr_core.records import Step
 from worker.locomotion_files import find_locomotion_models
 from worker.metric_writer import MetricWriter
-from worker.recorder import Curves, StoreRecorder, WriteCurves, read_curves
+from worker.recorder import StoreRecorder, WriteRecording
+from worker.recording.curves import read_curves
 from worker.sign_of_life import showing_life
 
 STEP = Step(cycle=1, epoch=1, env_steps=200, episodes=4, updates=4, wall_seconds=0.5)
@@ -49,8 +50,8 @@ def locomotion_claim(db: Database) -> Claim:
     return claimed
 
 
-def record(db: Database, settings: Settings, claimed: Claim, write_curves: WriteCurves | None = None) -> StoreRecorder:
-    return StoreRecorder(db, settings, claimed, never, write_curves)
+def record(db: Database, settings: Settings, claimed: Claim, write: WriteRecording | None = None) -> StoreRecorder:
+    return StoreRecorder(db, settings, claimed, never, write)
 
 
 def write_model(path: Path) -> None:
@@ -262,20 +263,30 @@ def test_a_training_that_hangs_shows_no_sign_of_going_on(db: Database, locomotio
     assert after == before
 
 
-def test_the_curves_of_every_attempt_are_written_at_the_end(
+def test_the_recording_is_written_at_the_end_when_the_store_has_every_point(
     db: Database, settings: Settings, locomotion_claim: Claim
 ) -> None:
-    written: list[tuple[str, list[Step], dict]] = []
+    found: list[tuple[list[Step], dict]] = []
 
-    def write_curves(path: Path, title: str, steps: Sequence[Step], values: Curves) -> None:
+    def write(path: Path) -> None:
         path.touch()
-        written.append((title, list(steps), dict(values)))
+        steps, curves = read_curves(db, locomotion_claim.run_id)
+        found.append((steps, dict(curves)))
 
-    with record(db, settings, locomotion_claim, write_curves) as recorder:
+    with record(db, settings, locomotion_claim, write) as recorder:
         recorder.log(STEP, {"test/success_rate": 0.75})
 
-    assert written == [("FetchPush her locomotion, seed 0", [STEP], {"test/success_rate": [0.75]})]
-    assert find_file(db, locomotion_claim.run_id, "curves-attempt-1.rrd").kind == "recording"
+    assert found == [([STEP], {"test/success_rate": [0.75]})]
+    assert find_file(db, locomotion_claim.run_id, "recording-attempt-1.rrd").kind == "recording"
+
+
+def test_a_training_that_has_logged_nothing_leaves_no_recording(
+    db: Database, settings: Settings, locomotion_claim: Claim
+) -> None:
+    with record(db, settings, locomotion_claim, Path.touch):
+        pass
+
+    assert [row.name for row in list_files(db, locomotion_claim.run_id)] == []
 
 
 def test_curves_of_several_pages_are_put_together(
@@ -295,13 +306,13 @@ def test_curves_of_several_pages_are_put_together(
 def test_a_training_does_not_fail_with_its_rerun_file(
     db: Database, settings: Settings, locomotion_claim: Claim, caplog: pytest.LogCaptureFixture
 ) -> None:
-    def write_curves(path: Path, title: str, steps: Sequence[Step], values: Curves) -> None:
-        raise RuntimeError("no curves today")
+    def write(path: Path) -> None:
+        raise RuntimeError("no recording today")
 
-    with record(db, settings, locomotion_claim, write_curves) as recorder:
+    with record(db, settings, locomotion_claim, write) as recorder:
         recorder.log(STEP, {"test/success_rate": 0.75})
 
-    assert "no curves today" in caplog.text
+    assert "no recording today" in caplog.text
 
 
 def test_the_model_of_the_locomotion_run_is_found(db: Database, settings: Settings, locomotion_claim: Claim) -> None:

@@ -15,11 +15,16 @@ COMMANDS = {
     "worker": "Train queued runs, on this machine or on a cluster.",
     "node": "Make this machine a node of a cluster.",
     "viewer": "Serve 3D views of policies to the page.",
+    "launch": "Queue runs, or a study of them, for the workers.",
+    "runs": "List the runs in the store.",
     "train": "Train here and now, without page and queue.",
     "evaluate": "Measure the success of a trained policy.",
+    "replay": "Simulate recorded episodes again and compare every bit.",
     "render": "Draw the picture of a task.",
+    "export": "Write what the store has of runs for other tools, such as Rerun.",
     "backup": "Copy all runs and their files to one place, while everything runs.",
     "restore": "Bring back what backup has copied.",
+    "export": "Draw figures of runs, or write runs for other trackers.",
     "list": "List tasks, methods or presets.",
 }
 

@@ -8,12 +8,14 @@ import signal
 import subprocess
 import sys
 import threading
+from collections.abc import Callable
 from pathlib import Path
 
 from backend.store.database import open_database
 from backend.store.errors import StoreUnavailable
 from backend.store.settings import Settings, load_settings
 from sldr_core.errors import SldrError
+from worker.media.host import MediaHost
 from worker.viewer.host import Host, keep_warm
 from worker.viewer.process import serve_session
 
@@ -55,21 +57,24 @@ def host_sessions(settings: Settings) -> None:
     keep_warm()
     host = Host(database, settings, target=serve_session)
     host.begin()
+    media = MediaHost(database, settings)
     pictures = _draw_pictures(settings.home)
     try:
         while not stop.is_set():
-            stop.wait(_round(host))
+            stop.wait(_round(host.tick, media.tick))
     finally:
         pictures.terminate()
         host.close()
+        media.close()
         pictures.wait()
         database.close()
 
 
-def _round(host: Host) -> float:
-    """Do one round, and return how long to wait for the next [s]."""
+def _round(*ticks: Callable[[], None]) -> float:
+    """Do one round of everything, and return how long to wait for the next [s]."""
     try:
-        host.tick()
+        for tick in ticks:
+            tick()
     except StoreUnavailable as err:
         log.warning("%s Trying again.", err)
         return STORE_RETRY_S
@@ -82,10 +87,12 @@ def _draw_pictures(home: Path) -> subprocess.Popen[bytes]:
 
 
 def _show_one(policy: Path, port: int) -> None:
+    from worker.viewer.panel import add_panel
     from worker.viewer.reports import Job
     from worker.viewer.session import open_session, watch
 
     session = open_session(Job("alone", {"kind": "live"}, {"policy": (policy,)}), port)
+    add_panel(session.server, session.control.ask)
     print(f"{session.show.message} http://127.0.0.1:{session.port}/", flush=True)
     watch(session)
 

@@ -64,6 +64,10 @@ class ControlChannel:
         """Pages that are connected now."""
         return len(self._connections)
 
+    def ask(self, command: Mapping[str, Any]) -> None:
+        """Ask for something from within this process; nobody hears the answer."""
+        self._asked.put(Asked(to_json(command), lambda answer: None))
+
     def take(self, patience_s: float) -> list[Asked]:
         """Return the messages that have come, in order; wait for the first so long at most [s]."""
         taken: list[Asked] = []

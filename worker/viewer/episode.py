@@ -8,7 +8,7 @@ import viser
 
 from sldr_core.envs import Envs
 from sldr_core.episodes import read_episodes
-from sldr_core.errors import BadFile
+from sldr_core.errors import BadFile, InvalidConfig
 from sldr_core.training.resimulation import first_differences, make_resimulation
 from worker.viewer import against
 from worker.viewer.commands import Command, unknown_command
@@ -35,7 +35,10 @@ def open_episode(server: viser.ViserServer, job: Job) -> EpisodeShow:
     if episode is None:
         known = ", ".join(str(episode.index) for episode in test.episodes)
         raise BadFile(f"{path} has no episode {index}; it has {known}.")
-    track = RecordedTrack(test, episode)
+    try:
+        track = RecordedTrack(test, episode)
+    except InvalidConfig as err:
+        raise BadFile(f"{path} was recorded by another version ({err}); show it with that one.") from err
     config = track.config
     envs = make_resimulation(config, 1)
     if episode.qpos.shape[1] != envs.model.nq:

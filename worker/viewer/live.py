@@ -78,8 +78,9 @@ class LiveShow:
             return f"Live: {first}, {' and '.join(_side_name(file) for file in self._files)} from the same start."
         lanes = len(self._display.tracks)
         many = "" if lanes == 1 else f", {lanes} episodes side by side"
-        newest = self._files[0].path.name == "policy-newest.pt"
-        return f"Live: {first}{many}, " + ("always with the newest policy." if newest else self._files[0].path.name)
+        name = self._files[0].path.name
+        which = "always with the newest policy" if name == "policy-newest.pt" else name
+        return f"Live: {first}{many}, {which}."
 
     def advance(self, wall_s: float) -> None:
         """Let time pass, simulate what is due, and draw it."""

@@ -34,6 +34,9 @@ def open_page(port: int = 0) -> viser.ViserServer:
         server = viser.ViserServer(host=HOST, port=port, verbose=False)
     _refuse_sharing(server)
     server.gui.configure_theme(show_logo=False, show_share_button=False, control_width="small")
+    # Our own page has the controls; what is left here is Viser's own, folded away.
+    server.gui.set_panel_label("View")
+    server.gui.main_panel.minimize()
     server.scene.set_up_direction("+z")
     _add_lights(server)
     return server

@@ -90,10 +90,15 @@ class SceneView:
 
     def show(self, poses: Poses) -> None:
         """Move every body that has moved."""
+        shown = self._shown
+        moved, turned = np.ones((2, len(poses.pos)), dtype=np.bool_)
+        if shown is not None:
+            moved, turned = (shown.pos != poses.pos).any(axis=1), (shown.quat != poses.quat).any(axis=1)
         with self._server.atomic():
             for body, node in self.body_nodes.items():
-                if self._shown is None or self._has_moved(self._shown, poses, body):
+                if moved[body]:
                     node.position = poses.pos[body]
+                if turned[body]:
                     node.wxyz = poses.quat[body]
         self._shown = poses
 
@@ -131,9 +136,3 @@ class SceneView:
     def _body_path(self, body: int) -> str:
         name = self.model.body(body).name.replace("/", "_") or f"body{body}"
         return f"{self.prefix}/{name}"
-
-    @staticmethod
-    def _has_moved(before: Poses, now: Poses, body: int) -> bool:
-        return not (
-            np.array_equal(before.pos[body], now.pos[body]) and np.array_equal(before.quat[body], now.quat[body])
-        )

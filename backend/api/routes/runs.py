@@ -1,4 +1,4 @@
-"""Runs: the table, one run, its history, its attempts and its curves."""
+"""One run: what it is, its history, its attempts and its curves."""
 
 from __future__ import annotations
 
@@ -7,45 +7,17 @@ from typing import Annotated
 
 from fastapi import APIRouter, Query
 
-from backend.api.answers import run_detail, run_summary
+from backend.api.answers import run_detail
 from backend.api.dependencies import Store
 from backend.api.errors import problem_responses
 from backend.api.queue_schemas import Attempt, Attempts
-from backend.api.schemas import MetricBatch, RunDetail, RunEvent, RunEvents, RunPage
+from backend.api.schemas import MetricBatch, RunDetail, RunEvent, RunEvents
 from backend.store import attempts, files, metrics, runs
-from backend.store.run_order import SortKey
-from backend.store.states import RunState
-from sldr_core.config import Phase
-
-LARGEST_PAGE = 200
-"""Rows in one answer at most."""
 
 LARGEST_CURSOR = 2**53 - 1
 """Cursors are numbers that JavaScript holds exactly."""
 
 router = APIRouter(prefix="/api/runs", tags=["runs"])
-
-
-@router.get("", responses=problem_responses(422))
-def list_runs(
-    store: Store,
-    state: RunState | None = None,
-    task: str | None = None,
-    method: str | None = None,
-    phase: Phase | None = None,
-    search: Annotated[
-        str | None, Query(max_length=200, description="Words that id, task, method, phase, preset or state hold.")
-    ] = None,
-    deleted: Annotated[bool, Query(description="The runs that a person hid, instead of all others.")] = False,
-    sort: Annotated[SortKey, Query(description="`success` is that of the newest test.")] = "launched",
-    descending: bool = True,
-    limit: Annotated[int, Query(ge=1, le=LARGEST_PAGE)] = 50,
-    cursor: Annotated[str | None, Query(max_length=15, description="`next_cursor` of the page before.")] = None,
-) -> RunPage:
-    """List runs, one page at a time; the newest come first unless another order is asked for."""
-    wanted = runs.RunFilter(state=state, task=task, method=method, phase=phase, search=search, deleted=deleted)
-    found = runs.list_runs(store, wanted, limit, cursor, sort, descending)
-    return RunPage(runs=[run_summary(row) for row in found.rows], next_cursor=found.next_cursor, total=found.total)
 
 
 @router.get("/{run_id}", responses=problem_responses(404, 422))

@@ -14,7 +14,7 @@ const RUNS = [
 let server: FakeServer;
 beforeEach(() => {
   server = startServer()
-    .on('GET /api/runs', () => ({ body: { runs: RUNS, next_cursor: null, total: 3 } }))
+    .on('GET /api/runs', () => ({ body: { runs: RUNS, values: [[], [], []], next_cursor: null, total: 3 } }))
     .on('PUT /api/runs/priority', () => DONE)
     .on('POST /api/runs/actions', ({ body }) => ({
       body: {
@@ -34,7 +34,7 @@ async function press(user: UserEvent, name: RegExp): Promise<void> {
 
 test('an action goes to those of the selected runs that allow it', async () => {
   const { user } = openPage('/');
-  await user.click(await screen.findByRole('checkbox', { name: 'Select all runs shown' }));
+  await user.click(await screen.findByRole('checkbox', { name: 'Select all runs of this table' }));
   expect(within(await bar()).getByText('3 runs selected')).toBeTruthy();
   await press(user, /^Pause/);
   await waitFor(() => expect(sent()).toEqual([{ action: 'pause', run_ids: ['run-1'] }]));
@@ -88,7 +88,7 @@ test('what was not done says why', async () => {
 
 test('a priority goes to the selected runs that have not ended', async () => {
   const { user } = openPage('/');
-  await user.click(await screen.findByRole('checkbox', { name: 'Select all runs shown' }));
+  await user.click(await screen.findByRole('checkbox', { name: 'Select all runs of this table' }));
   await press(user, /^Priority/);
   const field = await screen.findByRole('textbox', { name: 'Priority of the selected runs' });
   await user.clear(field);

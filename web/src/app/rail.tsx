@@ -5,9 +5,13 @@ import { SchemeSwitch } from '@/app/scheme-switch';
 import { Icon, type IconName } from '@/components/icon';
 import classes from './shell.module.css';
 
-const PLACES: readonly { to: '/' | '/launch' | '/queue' | '/workers'; label: string; icon: IconName }[] = [
+type Place = '/' | '/launch' | '/studies' | '/compare' | '/queue' | '/workers';
+
+const PLACES: readonly { to: Place; label: string; icon: IconName }[] = [
   { to: '/', label: 'Runs', icon: 'runs' },
   { to: '/launch', label: 'New run', icon: 'launch' },
+  { to: '/studies', label: 'Studies', icon: 'studies' },
+  { to: '/compare', label: 'Compare', icon: 'chart' },
   { to: '/queue', label: 'Queue', icon: 'queue' },
   { to: '/workers', label: 'Workers', icon: 'workers' },
 ];
@@ -25,7 +29,7 @@ export function Rail({ isNarrow, onToggle }: { isNarrow: boolean; onToggle: () =
             <Link
               to={to}
               className={classes.place}
-              activeOptions={{ exact: true, includeSearch: false }}
+              activeOptions={{ exact: to !== '/studies', includeSearch: false }}
               activeProps={{ 'aria-current': 'page' }}
               aria-label={label}
             >

@@ -10,9 +10,13 @@ import {
 } from '@tanstack/react-router';
 import { PageBroke, PageNotFound } from '@/app/failures';
 import { Shell } from '@/app/shell';
+import { readCompareSearch, readConfigsSearch } from '@/features/compare/search';
 import { readLaunchSearch } from '@/features/launch/search';
+import { readNewStudySearch } from '@/features/new-study/search';
 import { readRunSearch } from '@/features/run/search';
 import { readRunsSearch } from '@/features/runs/search';
+import { readStudiesSearch } from '@/features/studies/search';
+import { readStudySearch } from '@/features/study/search';
 
 const root = createRootRoute({ component: Shell });
 
@@ -37,6 +41,27 @@ const run = createRoute({
   component: lazyRouteComponent(() => import('@/features/run/run-page'), 'RunPage'),
 });
 
+const studies = createRoute({
+  getParentRoute: () => root,
+  path: '/studies',
+  validateSearch: readStudiesSearch,
+  component: lazyRouteComponent(() => import('@/features/studies/studies-page'), 'StudiesPage'),
+});
+
+const newStudy = createRoute({
+  getParentRoute: () => root,
+  path: '/studies/new',
+  validateSearch: readNewStudySearch,
+  component: lazyRouteComponent(() => import('@/features/new-study/new-study-page'), 'NewStudyPage'),
+});
+
+const study = createRoute({
+  getParentRoute: () => root,
+  path: '/studies/$studyId',
+  validateSearch: readStudySearch,
+  component: lazyRouteComponent(() => import('@/features/study/study-page'), 'StudyPage'),
+});
+
 const queue = createRoute({
   getParentRoute: () => root,
   path: '/queue',
@@ -49,10 +74,24 @@ const workers = createRoute({
   component: lazyRouteComponent(() => import('@/features/workers/workers-page'), 'WorkersPage'),
 });
 
+const compare = createRoute({
+  getParentRoute: () => root,
+  path: '/compare',
+  validateSearch: readCompareSearch,
+  component: lazyRouteComponent(() => import('@/features/compare/compare-page'), 'ComparePage'),
+});
+
+const configs = createRoute({
+  getParentRoute: () => root,
+  path: '/compare/configs',
+  validateSearch: readConfigsSearch,
+  component: lazyRouteComponent(() => import('@/features/compare/configs-page'), 'ConfigsPage'),
+});
+
 /** Make the router; a test hands in a history of its own. */
 export function makeRouter(history?: RouterHistory) {
   return createRouter({
-    routeTree: root.addChildren([runs, launch, run, queue, workers]),
+    routeTree: root.addChildren([runs, launch, run, studies, newStudy, study, compare, configs, queue, workers]),
     history,
     defaultNotFoundComponent: PageNotFound,
     defaultErrorComponent: PageBroke,

@@ -19,12 +19,12 @@ const FAILED = { ...RUN, id: 'run-3', seed: 3, state: 'failed' as const, reason:
 let server: FakeServer;
 beforeEach(() => {
   server = startServer().on('GET /api/runs', () => ({
-    body: { runs: [FAILED, BLOCKED, RUN, LOCOMOTION], next_cursor: null, total: 4 },
+    body: { runs: [FAILED, BLOCKED, RUN, LOCOMOTION], values: [[], [], [], []], next_cursor: null, total: 4 },
   }));
 });
 
 test('without runs the page says what to do first', async () => {
-  server.on('GET /api/runs', () => ({ body: { runs: [], next_cursor: null, total: 0 } }));
+  server.on('GET /api/runs', () => ({ body: { runs: [], values: [], next_cursor: null, total: 0 } }));
   openPage('/');
   expect(await screen.findByRole('link', { name: 'Launch the first run' })).toBeTruthy();
 });
@@ -91,7 +91,8 @@ test('a click on a column sorts on the server, and another turns the order round
 
 test('deleted runs have a list of their own', async () => {
   const { user } = openPage('/');
-  await user.click(await screen.findByRole('switch', { name: 'Deleted' }));
+  await user.click(await screen.findByRole('button', { name: 'Filter' }));
+  await user.click(await screen.findByRole('switch', { name: /^Deleted/ }));
   await waitFor(() => expect(lastQuery().get('deleted')).toBe('true'));
 });
 

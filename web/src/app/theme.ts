@@ -10,7 +10,7 @@ const ACCENT: MantineColorsTuple = [
   '#78aedc',
   '#5296d1',
   '#3a87ca',
-  '#2a7fc8',
+  '#2474bb',
   '#1c6cb1',
   '#0f609f',
   '#00538d',

@@ -24,6 +24,126 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/compare": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Curves
+         * @description Return learning curves, one panel a task, one curve a group of seeds.
+         */
+        get: operations["get_curves"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/compare/best": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Best Models
+         * @description Compare best test success: bars, improvement, profile and efficiency. Of the view, statistic and level count.
+         */
+        get: operations["get_best_models"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/compare/bundle.zip": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Bundle
+         * @description Send figures, numbers, configs, versions, seeds and references in one archive.
+         */
+        get: operations["get_bundle"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/compare/configs": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Config Comparison
+         * @description Return the settings in which runs differ, and the switches between their methods.
+         */
+        get: operations["get_config_comparison"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/compare/figure.{format}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Figure
+         * @description Draw a comparison, or send the numbers that would be drawn.
+         */
+        get: operations["get_figure"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/compare/metrics": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Compared Metrics
+         * @description List the metrics that runs have logged.
+         */
+        get: operations["list_compared_metrics"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/defaults": {
         parameters: {
             query?: never;
@@ -84,6 +204,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/metric-names": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Metrics
+         * @description List what runs have logged.
+         */
+        get: operations["list_metrics"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/queue": {
         parameters: {
             query?: never;
@@ -104,6 +244,46 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/run-groups": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Run Groups
+         * @description List the groups of the runs that pass the filters, with the quartiles of one metric over their runs.
+         */
+        get: operations["list_run_groups"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/run-groups.csv": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Download Run Groups
+         * @description Send the groups as CSV, in their order.
+         */
+        get: operations["download_run_groups"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/runs": {
         parameters: {
             query?: never;
@@ -116,6 +296,26 @@ export interface paths {
          * @description List runs, one page at a time; the newest come first unless another order is asked for.
          */
         get: operations["list_runs"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/runs.csv": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Download Runs
+         * @description Send the table as CSV, in its order and with its columns.
+         */
+        get: operations["download_runs"];
         put?: never;
         post?: never;
         delete?: never;
@@ -164,6 +364,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/runs/tags": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Change Run Tags
+         * @description Give runs tags and take others away.
+         */
+        post: operations["change_run_tags"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/runs/{run_id}": {
         parameters: {
             query?: never;
@@ -196,6 +416,46 @@ export interface paths {
          * @description Return a run's attempts, oldest first.
          */
         get: operations["list_run_attempts"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/runs/{run_id}/episodes": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Run Episodes
+         * @description List the recorded episodes of a run's tests.
+         */
+        get: operations["list_run_episodes"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/runs/{run_id}/episodes/{epoch}/{index}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Run Episode
+         * @description Return what happened in one recorded episode, and what the streams and critics said of it.
+         */
+        get: operations["get_run_episode"];
         put?: never;
         post?: never;
         delete?: never;
@@ -324,6 +584,262 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/runs/{run_id}/notes": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Set Run Notes
+         * @description Replace the notes of a run.
+         */
+        put: operations["set_run_notes"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/runs/{run_id}/thumbnail": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Run Thumbnail
+         * @description Send the end of an episode of a run's newest policy, as a small picture.
+         */
+        get: operations["get_run_thumbnail"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/runs/{run_id}/videos": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Videos
+         * @description List the videos of a run that were ordered, the newest first.
+         */
+        get: operations["list_videos"];
+        put?: never;
+        /**
+         * Order Video
+         * @description Order a video of an episode; one that is there or on its way is not made again, one that failed is.
+         */
+        post: operations["order_video"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/studies": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Studies
+         * @description List studies, the newest first.
+         */
+        get: operations["list_studies"];
+        put?: never;
+        /**
+         * Create Study
+         * @description Make a study and queue the runs that nothing serves yet.
+         */
+        post: operations["create_study"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/studies/preview": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Preview Study
+         * @description Tell what launching a study, or a longer spec of one, would do and cost; queue nothing.
+         */
+        post: operations["preview_study"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/studies/templates": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Study Templates
+         * @description List the studies that come with the product: the paper's, its families, and one of two minutes.
+         */
+        get: operations["list_study_templates"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/studies/{study_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Study
+         * @description Return a study with all its cells.
+         */
+        get: operations["get_study"];
+        put?: never;
+        post?: never;
+        /**
+         * Delete Study
+         * @description Hide a study; its runs stay as they are.
+         */
+        delete: operations["delete_study"];
+        options?: never;
+        head?: never;
+        /**
+         * Change Study
+         * @description Give a study another name or note.
+         */
+        patch: operations["change_study"];
+        trace?: never;
+    };
+    "/api/studies/{study_id}/extend": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Extend Study
+         * @description Add tasks, methods or seeds to a study, and queue every run that it then misses.
+         */
+        post: operations["extend_study"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/studies/{study_id}/fill": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Fill Study
+         * @description Queue the runs that a study misses; asked again, it finds nothing to do.
+         */
+        post: operations["fill_study"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/studies/{study_id}/restore": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Restore Study
+         * @description Bring back a deleted study.
+         */
+        post: operations["restore_study"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/studies/{study_id}/retry": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Retry Study
+         * @description Try a study's failed or cancelled runs again, and first the locomotion runs that they need.
+         */
+        post: operations["retry_study"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/tags": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Tags
+         * @description List every tag in use.
+         */
+        get: operations["list_tags"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/tasks/{task}/picture": {
         parameters: {
             query?: never;
@@ -386,6 +902,54 @@ export interface paths {
         options?: never;
         head?: never;
         patch?: never;
+        trace?: never;
+    };
+    "/api/views": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Views
+         * @description List every saved view, by name.
+         */
+        get: operations["list_views"];
+        put?: never;
+        /**
+         * Save View
+         * @description Keep a view under a name that no other has.
+         */
+        post: operations["save_view"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/views/{view_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * Delete View
+         * @description Forget a view.
+         */
+        delete: operations["delete_view"];
+        options?: never;
+        head?: never;
+        /**
+         * Change View
+         * @description Give a view another name, or let it show something else.
+         */
+        patch: operations["change_view"];
         trace?: never;
     };
     "/api/workers": {
@@ -524,6 +1088,79 @@ export interface components {
             attempts: components["schemas"]["Attempt"][];
         };
         /**
+         * BestModels
+         * @description The best models of groups of runs, compared.
+         */
+        BestModels: {
+            /** Efficiency */
+            efficiency: components["schemas"]["Efficiency"][];
+            /** Groups */
+            groups: components["schemas"]["Group"][];
+            /** Improvements */
+            improvements: components["schemas"]["Improvement"][];
+            /** Left Out */
+            left_out: components["schemas"]["LeftOut"][];
+            /** Level */
+            level: number;
+            /** Overall */
+            overall: components["schemas"]["OverallScore"][];
+            /**
+             * Overall Tasks
+             * @description The tasks that every group has; `overall` and `profiles` are over them.
+             */
+            overall_tasks: string[];
+            /** Profiles */
+            profiles: components["schemas"]["Profile"][];
+            /** Runs */
+            runs: number;
+            /**
+             * Scores
+             * @description The bars of the paper's figure.
+             */
+            scores: components["schemas"]["BestScore"][];
+            /**
+             * Statistic
+             * @enum {string}
+             */
+            statistic: "median" | "mean" | "iqm" | "seeds";
+            /**
+             * Tables
+             * @description A plain table behind each chart.
+             */
+            tables: components["schemas"]["PlainTable"][];
+            /** Unread */
+            unread: number;
+            /**
+             * Version
+             * @description Changes when the answer does.
+             */
+            version: string;
+            words: components["schemas"]["Words"];
+        };
+        /**
+         * BestScore
+         * @description What the best models of one group reach in one task.
+         */
+        BestScore: {
+            /** Centre */
+            centre: number | null;
+            /** Group */
+            group: string;
+            /** High */
+            high: number | null;
+            /**
+             * Low
+             * @description Lower end of the interval; null below three seeds.
+             */
+            low: number | null;
+            /** N */
+            n: number;
+            /** Seeds */
+            seeds: components["schemas"]["SeedScore"][];
+            /** Task */
+            task: string;
+        };
+        /**
          * Choices
          * @description All that a launch can choose from.
          */
@@ -545,12 +1182,309 @@ export interface components {
             tasks: components["schemas"]["Task"][];
         };
         /**
+         * ComparedConfig
+         * @description One run of a comparison of configs.
+         */
+        ComparedConfig: {
+            /** Method */
+            method: string;
+            /** Phase */
+            phase: string;
+            /** Preset */
+            preset: string;
+            /** Run Id */
+            run_id: string;
+            /** Seed */
+            seed: number;
+            /** Task */
+            task: string;
+        };
+        /**
+         * ConfigComparison
+         * @description By what the configs of runs differ; settings that all share are left out.
+         */
+        ConfigComparison: {
+            /**
+             * Methods
+             * @description Each pair of different methods among the runs.
+             */
+            methods: components["schemas"]["MethodPair"][];
+            /** Runs */
+            runs: components["schemas"]["ComparedConfig"][];
+            /** Settings */
+            settings: components["schemas"]["Setting"][];
+            /**
+             * Shared
+             * @description Settings in which all are alike.
+             */
+            shared: number;
+        };
+        /**
+         * CurveComparison
+         * @description Learning curves of groups of runs, one panel a task.
+         */
+        CurveComparison: {
+            /**
+             * Every
+             * @description 1 if each cycle was read, k if every k-th: a metric of so many points is thinned.
+             */
+            every: number;
+            /**
+             * Groups
+             * @description In the order of the legend.
+             */
+            groups: components["schemas"]["Group"][];
+            /** Left Out */
+            left_out: components["schemas"]["LeftOut"][];
+            /** Level */
+            level: number;
+            /** Metric */
+            metric: string;
+            /**
+             * Panels
+             * @description In the paper's order of tasks.
+             */
+            panels: components["schemas"]["Panel"][];
+            /**
+             * Runs
+             * @description Runs in the answer.
+             */
+            runs: number;
+            /**
+             * Statistic
+             * @enum {string}
+             */
+            statistic: "median" | "mean" | "iqm" | "seeds";
+            /**
+             * Unread
+             * @description Further runs that pass the filters; only the newest are read.
+             */
+            unread: number;
+            /**
+             * Version
+             * @description Changes when the answer does: the hash of the data that it was computed from.
+             */
+            version: string;
+            words: components["schemas"]["Words"];
+            /**
+             * X
+             * @enum {string}
+             */
+            x: "epoch" | "env_steps" | "episodes" | "updates" | "wall_seconds";
+        };
+        /**
+         * CurveLoss
+         * @description Where a curve loses seeds.
+         */
+        CurveLoss: {
+            /**
+             * After
+             * @description Seeds behind it.
+             */
+            after: number;
+            /**
+             * Before
+             * @description Seeds up to there.
+             */
+            before: number;
+            /**
+             * X
+             * @description The last place that has them all.
+             */
+            x: number;
+            /**
+             * Y
+             * @description The curve's centre there.
+             */
+            y: number | null;
+        };
+        /**
          * Draining
          * @description Whether a worker shall take no further run.
          */
         Draining: {
             /** Draining */
             draining: boolean;
+        };
+        /**
+         * Efficiency
+         * @description How much one group needs in one task until a test first reaches a threshold.
+         */
+        Efficiency: {
+            /**
+             * Axis
+             * @enum {string}
+             */
+            axis: "env_steps" | "wall_seconds";
+            /** Group */
+            group: string;
+            /**
+             * High
+             * @description Third quartile, likewise.
+             */
+            high: number | null;
+            /**
+             * Low
+             * @description First quartile, likewise.
+             */
+            low: number | null;
+            /**
+             * Median
+             * @description Null if half of the seeds or more have not reached it.
+             */
+            median: number | null;
+            /** N */
+            n: number;
+            /**
+             * Reached
+             * @description Seeds that have reached it.
+             */
+            reached: number;
+            /** Seeds */
+            seeds: components["schemas"]["SeedReach"][];
+            /** Task */
+            task: string;
+            /** Threshold */
+            threshold: number;
+        };
+        /**
+         * Episode
+         * @description One recorded episode of a test.
+         */
+        Episode: {
+            /** Attempt */
+            attempt: number;
+            /**
+             * Epoch
+             * @description Epochs trained when the test was held.
+             */
+            epoch: number;
+            /**
+             * File
+             * @description The run's file that holds it.
+             */
+            file: string;
+            /**
+             * Index
+             * @description Its number in the test, from 0.
+             */
+            index: number;
+            /**
+             * Length
+             * @description Control steps.
+             */
+            length: number;
+            /**
+             * Resimulates
+             * @description Whether start and actions alone gave the same states again, bit for bit.
+             */
+            resimulates: boolean;
+            /**
+             * Success
+             * @description Whether the goal is reached at the last step.
+             */
+            success: boolean;
+            /**
+             * Tag
+             * @description `success`, or what went wrong.
+             * @enum {string}
+             */
+            tag: "success" | "never_touched" | "dropped" | "overshot" | "too_slow" | "other";
+            /**
+             * Task Return
+             * @description Sum of the task's rewards.
+             */
+            task_return: number;
+            /**
+             * Worst Q
+             * @description Least SLDR reward of any part; null without SLDR.
+             */
+            worst_q: number | null;
+            /**
+             * Worst Q Step
+             * @description The step it was given for, from 0.
+             */
+            worst_q_step: number | null;
+        };
+        /**
+         * EpisodeList
+         * @description A piece of a run's list of recorded episodes.
+         */
+        EpisodeList: {
+            /** Episodes */
+            episodes: components["schemas"]["Episode"][];
+            /**
+             * Epochs
+             * @description Epochs with recorded episodes, whatever the filter.
+             */
+            epochs: number[];
+            /**
+             * Total
+             * @description Episodes that the filter lets through.
+             */
+            total: number;
+        };
+        /**
+         * EpisodeTimelines
+         * @description What happened in an episode, in columns: of length + 1 moments, and of the length steps between them.
+         */
+        EpisodeTimelines: {
+            /**
+             * Angle
+             * @description Angle from the goal [rad], by moment; null without a rotation.
+             */
+            angle: (number | null)[] | null;
+            /**
+             * Contact
+             * @description Whether the robot touches each object, by moment.
+             */
+            contact: {
+                [key: string]: boolean[];
+            };
+            /**
+             * Distance
+             * @description Largest distance of an object from its goal [m], by moment.
+             */
+            distance: (number | null)[];
+            /**
+             * Env Steps
+             * @description Control steps of training episodes when the test was held.
+             */
+            env_steps: number;
+            episode: components["schemas"]["Episode"];
+            /**
+             * Induced
+             * @description Action that each part was made to do, by step.
+             */
+            induced: {
+                [key: string]: (number | null)[][];
+            };
+            /**
+             * Rewards
+             * @description Reward of each stream, by step.
+             */
+            rewards: {
+                [key: string]: (number | null)[];
+            };
+            /**
+             * Success
+             * @description Whether the goal is reached, by moment.
+             */
+            success: boolean[];
+            /**
+             * Values
+             * @description Q of each stream's critic, by step.
+             */
+            values: {
+                [key: string]: (number | null)[];
+            };
+            /**
+             * Wanted
+             * @description Action that each part wanted, by step.
+             */
+            wanted: {
+                [key: string]: (number | null)[][];
+            };
         };
         /**
          * EpisodeView
@@ -570,6 +1504,88 @@ export interface components {
             run_id: string;
         };
         /**
+         * Group
+         * @description Runs that are the same but for their task and seed.
+         */
+        Group: {
+            /**
+             * Color
+             * @description Which colour of the palette it has: its method's, everywhere the same.
+             */
+            color: number;
+            /**
+             * Dash
+             * @description Which dash pattern of the palette it has; variants of a method differ in it.
+             */
+            dash: number;
+            /**
+             * Key
+             * @description Names the group in every record of the answer, and in addresses.
+             */
+            key: string;
+            /**
+             * Label
+             * @description Its name for a person: the method's title, and the variant if there is one.
+             */
+            label: string;
+            /** Method */
+            method: string;
+            /**
+             * Variant
+             * @description What tells it apart from the method's other groups; empty if there is nothing.
+             */
+            variant: string;
+        };
+        /**
+         * GroupCurve
+         * @description What the seeds of one group say in one task. Columns are as long as `x`.
+         */
+        GroupCurve: {
+            /**
+             * Centre
+             * @description Empty when each seed is shown by itself.
+             */
+            centre: (number | null)[];
+            /**
+             * Group
+             * @description The group's key.
+             */
+            group: string;
+            /**
+             * Has Band
+             * @description False if the seeds' own lines are to be drawn: asked for, or too few for a band.
+             */
+            has_band: boolean;
+            /** High */
+            high: (number | null)[];
+            /**
+             * Legend
+             * @description Statistic, number of seeds and level in words.
+             */
+            legend: string;
+            /** Losses */
+            losses: components["schemas"]["CurveLoss"][];
+            /**
+             * Low
+             * @description Lower end of the band; null where it has fewer than three seeds.
+             */
+            low: (number | null)[];
+            /** Members */
+            members: components["schemas"]["Member"][];
+            /**
+             * N
+             * @description Seeds that have logged the metric at all.
+             */
+            n: number;
+            /**
+             * N At
+             * @description Seeds at each place.
+             */
+            n_at: number[];
+            /** X */
+            x: number[];
+        };
+        /**
          * Health
          * @description Whether the service can do its work.
          */
@@ -585,6 +1601,39 @@ export interface components {
             viewer_alive: boolean;
             /** Workers Alive */
             workers_alive: number;
+        };
+        /**
+         * Improvement
+         * @description How probably a run of one group beats a run of another, in a task drawn at random.
+         */
+        Improvement: {
+            /**
+             * First
+             * @description Key of the group that may be better.
+             */
+            first: string;
+            /** High */
+            high: number | null;
+            /**
+             * Low
+             * @description Lower end of the bootstrap interval; null if a task has fewer than three seeds of either.
+             */
+            low: number | null;
+            /**
+             * Probability
+             * @description Ties count half.
+             */
+            probability: number;
+            /**
+             * Second
+             * @description Key of the group that it is compared with.
+             */
+            second: string;
+            /**
+             * Tasks
+             * @description Tasks that both have.
+             */
+            tasks: number;
         };
         /**
          * InspectorView
@@ -643,6 +1692,28 @@ export interface components {
             runs: components["schemas"]["RunSummary"][];
         };
         /**
+         * LeftOut
+         * @description A run that was asked for and is not in the answer.
+         */
+        LeftOut: {
+            /**
+             * Group
+             * @description Its group's key.
+             */
+            group: string;
+            /**
+             * Reason
+             * @description Why, in one sentence.
+             */
+            reason: string;
+            /** Run Id */
+            run_id: string;
+            /** Seed */
+            seed: number;
+            /** Task */
+            task: string;
+        };
+        /**
          * LiveView
          * @description Watch a policy act, toward random goals or goals that are dragged.
          */
@@ -684,6 +1755,32 @@ export interface components {
             text: string;
         };
         /**
+         * Member
+         * @description One seed of a curve.
+         */
+        Member: {
+            /**
+             * Points
+             * @description How often it has logged the metric.
+             */
+            points: number;
+            /** Run Id */
+            run_id: string;
+            /** Seed */
+            seed: number;
+            state: components["schemas"]["RunState"];
+            /**
+             * X
+             * @description Its own curve, every point of it up to a limit; null if only the aggregate was asked for.
+             */
+            x: number[] | null;
+            /**
+             * Y
+             * @description As long as `x`.
+             */
+            y: number[] | null;
+        };
+        /**
          * Method
          * @description One method, for the launch form.
          */
@@ -699,6 +1796,32 @@ export interface components {
             phases: ("locomotion" | "manipulation")[];
             /** Summary */
             summary: string;
+            /** Title */
+            title: string;
+        };
+        /**
+         * MethodPair
+         * @description By what two methods differ.
+         */
+        MethodPair: {
+            /** First */
+            first: string;
+            /** Second */
+            second: string;
+            /** Switches */
+            switches: components["schemas"]["MethodSwitch"][];
+        };
+        /**
+         * MethodSwitch
+         * @description One thing by which two methods differ.
+         */
+        MethodSwitch: {
+            /** First */
+            first: string;
+            /** Name */
+            name: string;
+            /** Second */
+            second: string;
             /** Title */
             title: string;
         };
@@ -744,6 +1867,108 @@ export interface components {
              * @description The waiting run that it shall start before; null for the end.
              */
             before: string | null;
+        };
+        /**
+         * NewView
+         * @description A view of the runs table to be kept for everyone.
+         */
+        NewView: {
+            /** Name */
+            name: string;
+            /**
+             * Search
+             * @description The page's search string, without the question mark.
+             */
+            search: string;
+        };
+        /**
+         * Notes
+         * @description What people write about a run, as plain text.
+         */
+        Notes: {
+            /** Notes */
+            notes: string;
+        };
+        /**
+         * OverallScore
+         * @description What the best models of one group reach over all tasks that every group has.
+         */
+        OverallScore: {
+            /** Group */
+            group: string;
+            /** High */
+            high: number | null;
+            /** Iqm */
+            iqm: number | null;
+            /** Low */
+            low: number | null;
+            /**
+             * N
+             * @description Runs, over all tasks.
+             */
+            n: number;
+            /** Tasks */
+            tasks: number;
+        };
+        /**
+         * Panel
+         * @description One task's curves.
+         */
+        Panel: {
+            /** Curves */
+            curves: components["schemas"]["GroupCurve"][];
+            /** Task */
+            task: string;
+        };
+        /**
+         * PlainTable
+         * @description What a chart shows, as rows.
+         */
+        PlainTable: {
+            /** Columns */
+            columns: components["schemas"]["TableColumn"][];
+            /** Name */
+            name: string;
+            /** Rows */
+            rows: (string | number | null)[][];
+            /** Title */
+            title: string;
+        };
+        /**
+         * PlannedLocomotion
+         * @description A locomotion run that new runs of a study need.
+         */
+        PlannedLocomotion: {
+            /**
+             * Run Id
+             * @description The existing run that is reused; null for a new one.
+             */
+            run_id: string | null;
+            /** Task */
+            task: string;
+        };
+        /**
+         * PlannedPlace
+         * @description One training of a study, and how it comes to its run.
+         */
+        PlannedPlace: {
+            /** Method */
+            method: string;
+            /**
+             * Run Id
+             * @description The existing run; null for a new one.
+             */
+            run_id: string | null;
+            /** Seed */
+            seed: number;
+            standing: components["schemas"]["Standing"];
+            /** Task */
+            task: string;
+            /**
+             * Variant
+             * @description Empty in a study without variants.
+             */
+            variant: string;
         };
         /**
          * PlannedRun
@@ -828,6 +2053,26 @@ export interface components {
         Problems: {
             /** Problems */
             problems: components["schemas"]["Problem"][];
+        };
+        /**
+         * Profile
+         * @description Which share of a group's runs is better than each threshold, every task weighing the same.
+         */
+        Profile: {
+            /** Group */
+            group: string;
+            /** High */
+            high: (number | null)[];
+            /** Low */
+            low: (number | null)[];
+            /** N */
+            n: number;
+            /** Share */
+            share: number[];
+            /** Tasks */
+            tasks: number;
+            /** Thresholds */
+            thresholds: number[];
         };
         /**
          * Progress
@@ -974,6 +2219,11 @@ export interface components {
              */
             needs: string[];
             /**
+             * Notes
+             * @description What people wrote about it, as plain text.
+             */
+            notes: string;
+            /**
              * Pause Requested
              * @description It will pause; its worker has not paused it yet.
              */
@@ -998,9 +2248,19 @@ export interface components {
             reason: string | null;
             /** Seed */
             seed: number;
+            /**
+             * Settings Hash
+             * @description Equal for runs that differ in nothing but the seed.
+             */
+            settings_hash: string;
             /** Started At */
             started_at: string | null;
             state: components["schemas"]["RunState"];
+            /**
+             * Tags
+             * @description What people call it, in the order of the alphabet.
+             */
+            tags: string[];
             /** Task */
             task: string;
         };
@@ -1060,6 +2320,45 @@ export interface components {
             files: components["schemas"]["RunFile"][];
         };
         /**
+         * RunGroup
+         * @description Runs that share what they are grouped by.
+         */
+        RunGroup: {
+            /** Keys */
+            keys: {
+                [key: string]: string;
+            };
+            /** Runs */
+            runs: number;
+            /**
+             * Seeds
+             * @description Each once, in their order.
+             */
+            seeds: number[];
+            /** @description Of the metric asked for; null if no run has logged it. */
+            spread: components["schemas"]["Spread"] | null;
+            /**
+             * States
+             * @description Runs in each state that occurs.
+             */
+            states: {
+                [key: string]: number;
+            };
+        };
+        /**
+         * RunGroups
+         * @description The groups of the runs that pass a filter, in the order asked for.
+         */
+        RunGroups: {
+            /** Groups */
+            groups: components["schemas"]["RunGroup"][];
+            /**
+             * Total
+             * @description Runs in all groups.
+             */
+            total: number;
+        };
+        /**
          * RunPage
          * @description One page of runs, in the order asked for.
          */
@@ -1070,6 +2369,11 @@ export interface components {
             runs: components["schemas"]["RunSummary"][];
             /** Total */
             total: number;
+            /**
+             * Values
+             * @description For each run, the values of the columns asked for; null where it has not logged the metric.
+             */
+            values: (number | null)[][];
         };
         /**
          * RunState
@@ -1145,11 +2449,531 @@ export interface components {
             reason: string | null;
             /** Seed */
             seed: number;
+            /**
+             * Settings Hash
+             * @description Equal for runs that differ in nothing but the seed.
+             */
+            settings_hash: string;
             /** Started At */
             started_at: string | null;
             state: components["schemas"]["RunState"];
+            /**
+             * Tags
+             * @description What people call it, in the order of the alphabet.
+             */
+            tags: string[];
             /** Task */
             task: string;
+        };
+        /**
+         * SavedView
+         * @description One saved view.
+         */
+        SavedView: {
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /** Id */
+            id: string;
+            /** Name */
+            name: string;
+            /** Search */
+            search: string;
+        };
+        /**
+         * SavedViews
+         * @description Every saved view, by name.
+         */
+        SavedViews: {
+            /** Views */
+            views: components["schemas"]["SavedView"][];
+        };
+        /**
+         * SeedReach
+         * @description When one seed first reached a threshold.
+         */
+        SeedReach: {
+            /**
+             * Observed
+             * @description How long it has been watched.
+             */
+            observed: number;
+            /**
+             * Reached
+             * @description Null if it has not.
+             */
+            reached: number | null;
+            /** Run Id */
+            run_id: string;
+            /** Seed */
+            seed: number;
+        };
+        /**
+         * SeedScore
+         * @description The best test of one seed.
+         */
+        SeedScore: {
+            /**
+             * Best
+             * @description Its highest value.
+             */
+            best: number;
+            /**
+             * Epoch
+             * @description When it was first reached.
+             */
+            epoch: number;
+            /** Run Id */
+            run_id: string;
+            /** Seed */
+            seed: number;
+            state: components["schemas"]["RunState"];
+            /**
+             * Tests
+             * @description Tests that the highest was taken from.
+             */
+            tests: number;
+        };
+        /**
+         * Setting
+         * @description A setting in which runs differ.
+         */
+        Setting: {
+            /** Name */
+            name: string;
+            /**
+             * Values
+             * @description As text, one a run; null where a run does not have it.
+             */
+            values: (string | null)[];
+        };
+        /**
+         * Spread
+         * @description The middle half of a group's values.
+         */
+        Spread: {
+            /**
+             * Lower
+             * @description First quartile.
+             */
+            lower: number;
+            /** Median */
+            median: number;
+            /**
+             * N
+             * @description Runs that have a value.
+             */
+            n: number;
+            /**
+             * Upper
+             * @description Third quartile.
+             */
+            upper: number;
+        };
+        /**
+         * Standing
+         * @description How a place of a study comes to its run.
+         * @enum {string}
+         */
+        Standing: "new" | "joined" | "in_study";
+        /**
+         * Studies
+         * @description Studies, the newest first.
+         */
+        Studies: {
+            /** Studies */
+            studies: components["schemas"]["StudySummary"][];
+        };
+        /**
+         * StudyAddition
+         * @description What a study shall have besides.
+         */
+        StudyAddition: {
+            /** Methods */
+            methods?: string[];
+            /** Seeds */
+            seeds?: number[];
+            /** Tasks */
+            tasks?: string[];
+        };
+        /**
+         * StudyCell
+         * @description The runs of one task, method and variant.
+         */
+        StudyCell: {
+            /**
+             * Best Success Rate
+             * @description Median, over the seeds that have been tested, of the success of the best test.
+             */
+            best_success_rate: number | null;
+            /** Method */
+            method: string;
+            /**
+             * Missing Seeds
+             * @description Seeds that no run stands for.
+             */
+            missing_seeds: number[];
+            /**
+             * Progress
+             * @description Share of its trainings done, 0 to 1.
+             */
+            progress: number;
+            /**
+             * Runs
+             * @description One for each seed that has one.
+             */
+            runs: components["schemas"]["StudyRun"][];
+            /** States */
+            states: {
+                [key: string]: number;
+            };
+            /** Task */
+            task: string;
+            /**
+             * Tested
+             * @description Runs that have been tested.
+             */
+            tested: number;
+            /**
+             * Variant
+             * @description Empty in a study without variants.
+             */
+            variant: string;
+        };
+        /**
+         * StudyChange
+         * @description A new name or note; what is null stays.
+         */
+        StudyChange: {
+            /** Name */
+            name?: string | null;
+            /** Note */
+            note?: string | null;
+        };
+        /**
+         * StudyDetail
+         * @description A study with all its cells.
+         */
+        StudyDetail: {
+            /**
+             * Cells
+             * @description Task by task.
+             */
+            cells: components["schemas"]["StudyCell"][];
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /**
+             * Deleted At
+             * @description When a person hid it; it can be restored.
+             */
+            deleted_at: string | null;
+            /** Id */
+            id: string;
+            /**
+             * Locomotion
+             * @description The locomotion runs that its runs need, each once.
+             */
+            locomotion: components["schemas"]["StudyRun"][];
+            /** Name */
+            name: string;
+            /** Note */
+            note: string;
+            /**
+             * Progress
+             * @description Share of all its trainings done, 0 to 1.
+             */
+            progress: number;
+            /**
+             * Size
+             * @description Trainings that it asks for, locomotion runs not counted.
+             */
+            size: number;
+            spec: components["schemas"]["StudySpec"];
+            /**
+             * States
+             * @description How many of its runs are in each state.
+             */
+            states: {
+                [key: string]: number;
+            };
+        };
+        /**
+         * StudyEstimate
+         * @description What the new runs will cost, as far as this store's own runs tell.
+         */
+        StudyEstimate: {
+            /**
+             * Disk Bytes
+             * @description What their replay files take, nearly all that they write.
+             */
+            disk_bytes: number;
+            /**
+             * Disk Free Bytes
+             * @description What is free where this server keeps its data.
+             */
+            disk_free_bytes: number;
+            /**
+             * Slots
+             * @description Runs that the living workers can train at once.
+             */
+            slots: number;
+            /**
+             * Training S
+             * @description Time that they train, added up, in seconds; null if nobody knows.
+             */
+            training_s: number | null;
+            /**
+             * Unknown Runs
+             * @description Runs of whose like none has succeeded here.
+             */
+            unknown_runs: number;
+            /**
+             * Until Done S
+             * @description Time until all have ended if the living workers train nothing else; null if nobody knows.
+             */
+            until_done_s: number | null;
+        };
+        /**
+         * StudyLaunch
+         * @description A request to make a study and to queue what nothing serves yet.
+         */
+        StudyLaunch: {
+            /** Name */
+            name: string;
+            /**
+             * Note
+             * @default
+             */
+            note: string;
+            spec: components["schemas"]["StudySpec"];
+        };
+        /**
+         * StudyOutcome
+         * @description What launching a study, or more of it, has done.
+         */
+        StudyOutcome: {
+            /**
+             * Joined
+             * @description Trainings that a run from elsewhere serves.
+             */
+            joined: number;
+            /**
+             * Queued
+             * @description Runs that were made, locomotion runs counted.
+             */
+            queued: number;
+            /** Study Id */
+            study_id: string;
+        };
+        /**
+         * StudyPreview
+         * @description All that launching a study would do.
+         */
+        StudyPreview: {
+            estimate: components["schemas"]["StudyEstimate"];
+            /** Locomotion */
+            locomotion: components["schemas"]["PlannedLocomotion"][];
+            /** Places */
+            places: components["schemas"]["PlannedPlace"][];
+            /**
+             * Queued
+             * @description Runs that would be made, locomotion runs counted.
+             */
+            queued: number;
+        };
+        /**
+         * StudyPreviewRequest
+         * @description A study that could be launched, or a longer spec for one that is there.
+         */
+        StudyPreviewRequest: {
+            spec: components["schemas"]["StudySpec"];
+            /**
+             * Study Id
+             * @description The study that the spec would be for.
+             */
+            study_id?: string | null;
+        };
+        /**
+         * StudyRetry
+         * @description Which of a study's ended runs shall be tried again.
+         */
+        StudyRetry: {
+            /**
+             * Cancelled
+             * @description Those that a person cancelled, instead of those that failed.
+             * @default false
+             */
+            cancelled: boolean;
+        };
+        /**
+         * StudyRun
+         * @description How one run of a study stands.
+         */
+        StudyRun: {
+            /**
+             * Best Success Rate
+             * @description Success of its best test.
+             */
+            best_success_rate: number | null;
+            /**
+             * Progress
+             * @description Share of its training done, 0 to 1.
+             */
+            progress: number;
+            /**
+             * Reason
+             * @description Why it waits or ended so, in one sentence.
+             */
+            reason: string | null;
+            /** Run Id */
+            run_id: string;
+            /** Seed */
+            seed: number;
+            state: components["schemas"]["RunState"];
+            /** Task */
+            task: string;
+        };
+        /**
+         * StudySpec
+         * @description Every combination of tasks, methods, seeds and, if there are any, variants.
+         */
+        StudySpec: {
+            /** Methods */
+            methods: string[];
+            /**
+             * Overrides
+             * @description Settings laid over the preset in every run, nested.
+             */
+            overrides?: {
+                [key: string]: unknown;
+            };
+            /** Preset */
+            preset: string;
+            /** Seeds */
+            seeds: number[];
+            /** Tasks */
+            tasks: string[];
+            /** Variants */
+            variants?: components["schemas"]["StudyVariant"][];
+        };
+        /**
+         * StudySummary
+         * @description One row of the list of studies.
+         */
+        StudySummary: {
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /**
+             * Deleted At
+             * @description When a person hid it; it can be restored.
+             */
+            deleted_at: string | null;
+            /** Id */
+            id: string;
+            /** Name */
+            name: string;
+            /** Note */
+            note: string;
+            /**
+             * Progress
+             * @description Share of all its trainings done, 0 to 1.
+             */
+            progress: number;
+            /**
+             * Size
+             * @description Trainings that it asks for, locomotion runs not counted.
+             */
+            size: number;
+            spec: components["schemas"]["StudySpec"];
+            /**
+             * States
+             * @description How many of its runs are in each state.
+             */
+            states: {
+                [key: string]: number;
+            };
+        };
+        /**
+         * StudyTemplate
+         * @description A study that can be launched at once, or be changed first.
+         */
+        StudyTemplate: {
+            /** Name */
+            name: string;
+            spec: components["schemas"]["StudySpec"];
+            /** Summary */
+            summary: string;
+            /** Title */
+            title: string;
+        };
+        /**
+         * StudyTemplates
+         * @description The studies that come with the product.
+         */
+        StudyTemplates: {
+            /** Templates */
+            templates: components["schemas"]["StudyTemplate"][];
+        };
+        /**
+         * StudyVariant
+         * @description Settings that are tried beside others.
+         */
+        StudyVariant: {
+            /** Name */
+            name: string;
+            /**
+             * Overrides
+             * @description Settings laid over those of the study, nested.
+             */
+            overrides: {
+                [key: string]: unknown;
+            };
+        };
+        /**
+         * TableColumn
+         * @description One column of a plain table.
+         */
+        TableColumn: {
+            /** Title */
+            title: string;
+        };
+        /**
+         * TagChange
+         * @description Tags to give to runs and to take from them: of all of them or, if one does not allow it, of none.
+         */
+        TagChange: {
+            /** Add */
+            add?: string[];
+            /** Remove */
+            remove?: string[];
+            /** Run Ids */
+            run_ids: string[];
+        };
+        /**
+         * TagCount
+         * @description One tag, and how many runs have it.
+         */
+        TagCount: {
+            /** Runs */
+            runs: number;
+            /** Tag */
+            tag: string;
+        };
+        /**
+         * Tags
+         * @description Every tag in use, in the order of the alphabet.
+         */
+        Tags: {
+            /** Tags */
+            tags: components["schemas"]["TagCount"][];
         };
         /**
          * Task
@@ -1191,6 +3015,108 @@ export interface components {
             run_id: string;
         };
         /**
+         * Video
+         * @description A video: poll it until it is done, then play its url.
+         */
+        Video: {
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /**
+             * Epoch
+             * @description The test whose episode it shows; null: one of the newest policy then.
+             */
+            epoch: number | null;
+            /** Height */
+            height: number;
+            /** Id */
+            id: string;
+            /**
+             * Name
+             * @description Its name among the run's files.
+             */
+            name: string;
+            /**
+             * Number
+             * @description Which episode of the test; without a test, the seed of start and goal.
+             */
+            number: number;
+            /**
+             * Reason
+             * @description Why it failed, in one sentence.
+             */
+            reason: string | null;
+            /** Run Id */
+            run_id: string;
+            /**
+             * State
+             * @enum {string}
+             */
+            state: "queued" | "running" | "done" | "failed";
+            /**
+             * Url
+             * @description Path of the file, below this server, once it is done.
+             */
+            url: string | null;
+            /** Width */
+            width: number;
+        };
+        /**
+         * VideoOrder
+         * @description A request for a video of an episode.
+         */
+        VideoOrder: {
+            /**
+             * Epoch
+             * @description The test whose episode it shows; left out: the newest policy makes one.
+             */
+            epoch?: number | null;
+            /**
+             * Format
+             * @default mp4
+             * @enum {string}
+             */
+            format: "mp4" | "webm";
+            /**
+             * Height
+             * @description [pixels]
+             * @default 480
+             */
+            height: number;
+            /**
+             * Number
+             * @description Which episode of the test; without a test, the seed of start and goal.
+             * @default 0
+             */
+            number: number;
+            /**
+             * Width
+             * @description [pixels]
+             * @default 640
+             */
+            width: number;
+        };
+        /**
+         * Videos
+         * @description The videos of a run, the newest first.
+         */
+        Videos: {
+            /** Videos */
+            videos: components["schemas"]["Video"][];
+        };
+        /**
+         * ViewChange
+         * @description Another name or another search string for a view; what is left out or null stays.
+         */
+        ViewChange: {
+            /** Name */
+            name?: string | null;
+            /** Search */
+            search?: string | null;
+        };
+        /**
          * ViewerSession
          * @description A 3D session: poll it until it is ready, then open its url.
          */
@@ -1214,6 +3140,27 @@ export interface components {
              * @description Path of the 3D page, below this server, once ready.
              */
             url: string | null;
+        };
+        /**
+         * Words
+         * @description The view in words, the same on the page, in figures and in tables.
+         */
+        Words: {
+            /**
+             * Metric
+             * @description Label of the vertical axis.
+             */
+            metric: string;
+            /**
+             * Statistic
+             * @description What line and band are, with level.
+             */
+            statistic: string;
+            /**
+             * X
+             * @description Label of the horizontal axis.
+             */
+            x: string;
         };
         /**
          * Worker
@@ -1286,6 +3233,22 @@ export interface components {
             /** Workers */
             workers: components["schemas"]["Worker"][];
         };
+        /**
+         * MetricNames
+         * @description What runs have logged: each can be a column.
+         */
+        backend__api__table_schemas__MetricNames: {
+            /** Names */
+            names: string[];
+        };
+        /**
+         * MetricNames
+         * @description What can be compared.
+         */
+        backend__comparison__records__MetricNames: {
+            /** Metrics */
+            metrics: string[];
+        };
     };
     responses: never;
     parameters: never;
@@ -1298,25 +3261,50 @@ export type ActionResult = components['schemas']['ActionResult'];
 export type ActionResults = components['schemas']['ActionResults'];
 export type Attempt = components['schemas']['Attempt'];
 export type Attempts = components['schemas']['Attempts'];
+export type BestModels = components['schemas']['BestModels'];
+export type BestScore = components['schemas']['BestScore'];
 export type Choices = components['schemas']['Choices'];
+export type ComparedConfig = components['schemas']['ComparedConfig'];
+export type ConfigComparison = components['schemas']['ConfigComparison'];
+export type CurveComparison = components['schemas']['CurveComparison'];
+export type CurveLoss = components['schemas']['CurveLoss'];
 export type Draining = components['schemas']['Draining'];
+export type Efficiency = components['schemas']['Efficiency'];
+export type Episode = components['schemas']['Episode'];
+export type EpisodeList = components['schemas']['EpisodeList'];
+export type EpisodeTimelines = components['schemas']['EpisodeTimelines'];
 export type EpisodeView = components['schemas']['EpisodeView'];
+export type Group = components['schemas']['Group'];
+export type GroupCurve = components['schemas']['GroupCurve'];
 export type Health = components['schemas']['Health'];
+export type Improvement = components['schemas']['Improvement'];
 export type InspectorView = components['schemas']['InspectorView'];
 export type Launch = components['schemas']['Launch'];
 export type LaunchPlan = components['schemas']['LaunchPlan'];
 export type LaunchResult = components['schemas']['LaunchResult'];
+export type LeftOut = components['schemas']['LeftOut'];
 export type LiveView = components['schemas']['LiveView'];
 export type LogTail = components['schemas']['LogTail'];
+export type Member = components['schemas']['Member'];
 export type Method = components['schemas']['Method'];
+export type MethodPair = components['schemas']['MethodPair'];
+export type MethodSwitch = components['schemas']['MethodSwitch'];
 export type MetricBatch = components['schemas']['MetricBatch'];
 export type Move = components['schemas']['Move'];
+export type NewView = components['schemas']['NewView'];
+export type Notes = components['schemas']['Notes'];
+export type OverallScore = components['schemas']['OverallScore'];
+export type Panel = components['schemas']['Panel'];
+export type PlainTable = components['schemas']['PlainTable'];
+export type PlannedLocomotion = components['schemas']['PlannedLocomotion'];
+export type PlannedPlace = components['schemas']['PlannedPlace'];
 export type PlannedRun = components['schemas']['PlannedRun'];
 export type PolicyChoice = components['schemas']['PolicyChoice'];
 export type PresetSummary = components['schemas']['PresetSummary'];
 export type PriorityChange = components['schemas']['PriorityChange'];
 export type Problem = components['schemas']['Problem'];
 export type Problems = components['schemas']['Problems'];
+export type Profile = components['schemas']['Profile'];
 export type Progress = components['schemas']['Progress'];
 export type Queue = components['schemas']['Queue'];
 export type QueueEntry = components['schemas']['QueueEntry'];
@@ -1326,15 +3314,52 @@ export type RunEvent = components['schemas']['RunEvent'];
 export type RunEvents = components['schemas']['RunEvents'];
 export type RunFile = components['schemas']['RunFile'];
 export type RunFiles = components['schemas']['RunFiles'];
+export type RunGroup = components['schemas']['RunGroup'];
+export type RunGroups = components['schemas']['RunGroups'];
 export type RunPage = components['schemas']['RunPage'];
 export type RunState = components['schemas']['RunState'];
 export type RunSummary = components['schemas']['RunSummary'];
+export type SavedView = components['schemas']['SavedView'];
+export type SavedViews = components['schemas']['SavedViews'];
+export type SeedReach = components['schemas']['SeedReach'];
+export type SeedScore = components['schemas']['SeedScore'];
+export type Setting = components['schemas']['Setting'];
+export type Spread = components['schemas']['Spread'];
+export type Standing = components['schemas']['Standing'];
+export type Studies = components['schemas']['Studies'];
+export type StudyAddition = components['schemas']['StudyAddition'];
+export type StudyCell = components['schemas']['StudyCell'];
+export type StudyChange = components['schemas']['StudyChange'];
+export type StudyDetail = components['schemas']['StudyDetail'];
+export type StudyEstimate = components['schemas']['StudyEstimate'];
+export type StudyLaunch = components['schemas']['StudyLaunch'];
+export type StudyOutcome = components['schemas']['StudyOutcome'];
+export type StudyPreview = components['schemas']['StudyPreview'];
+export type StudyPreviewRequest = components['schemas']['StudyPreviewRequest'];
+export type StudyRetry = components['schemas']['StudyRetry'];
+export type StudyRun = components['schemas']['StudyRun'];
+export type StudySpec = components['schemas']['StudySpec'];
+export type StudySummary = components['schemas']['StudySummary'];
+export type StudyTemplate = components['schemas']['StudyTemplate'];
+export type StudyTemplates = components['schemas']['StudyTemplates'];
+export type StudyVariant = components['schemas']['StudyVariant'];
+export type TableColumn = components['schemas']['TableColumn'];
+export type TagChange = components['schemas']['TagChange'];
+export type TagCount = components['schemas']['TagCount'];
+export type Tags = components['schemas']['Tags'];
 export type Task = components['schemas']['Task'];
 export type TimeMachineView = components['schemas']['TimeMachineView'];
+export type Video = components['schemas']['Video'];
+export type VideoOrder = components['schemas']['VideoOrder'];
+export type Videos = components['schemas']['Videos'];
+export type ViewChange = components['schemas']['ViewChange'];
 export type ViewerSession = components['schemas']['ViewerSession'];
+export type Words = components['schemas']['Words'];
 export type Worker = components['schemas']['Worker'];
 export type WorkerRun = components['schemas']['WorkerRun'];
 export type Workers = components['schemas']['Workers'];
+export type BackendApiTableSchemasMetricNames = components['schemas']['backend__api__table_schemas__MetricNames'];
+export type BackendComparisonRecordsMetricNames = components['schemas']['backend__comparison__records__MetricNames'];
 export type $defs = Record<string, never>;
 export interface operations {
     get_choices: {
@@ -1353,6 +3378,466 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Choices"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    get_curves: {
+        parameters: {
+            query?: {
+                /** @description Which training is compared. */
+                phase?: "locomotion" | "manipulation";
+                /** @description Repeat for several; none: all. */
+                task?: string[];
+                /** @description Repeat for several; none: all. */
+                method?: string[];
+                /** @description Repeat for several; none: all. */
+                preset?: string[];
+                /** @description Ids of runs, to compare these only. */
+                run?: string[];
+                /** @description Id of a study: its runs only. */
+                study?: string | null;
+                metric?: string;
+                /** @description What curves are drawn over. */
+                x?: "epoch" | "env_steps" | "episodes" | "updates" | "wall_seconds";
+                /** @description `seeds` shows each by itself. */
+                statistic?: "median" | "mean" | "iqm" | "seeds";
+                /** @description Of confidence intervals. */
+                level?: number;
+                /** @description Whether to add each seed's own curve. */
+                seeds?: boolean;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CurveComparison"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    get_best_models: {
+        parameters: {
+            query?: {
+                /** @description Which training is compared. */
+                phase?: "locomotion" | "manipulation";
+                /** @description Repeat for several; none: all. */
+                task?: string[];
+                /** @description Repeat for several; none: all. */
+                method?: string[];
+                /** @description Repeat for several; none: all. */
+                preset?: string[];
+                /** @description Ids of runs, to compare these only. */
+                run?: string[];
+                /** @description Id of a study: its runs only. */
+                study?: string | null;
+                metric?: string;
+                /** @description What curves are drawn over. */
+                x?: "epoch" | "env_steps" | "episodes" | "updates" | "wall_seconds";
+                /** @description `seeds` shows each by itself. */
+                statistic?: "median" | "mean" | "iqm" | "seeds";
+                /** @description Of confidence intervals. */
+                level?: number;
+                /** @description Whether to add each seed's own curve. */
+                seeds?: boolean;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["BestModels"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    get_bundle: {
+        parameters: {
+            query?: {
+                /** @description Whether to leave out what tells who made it, and where. */
+                anonymous?: boolean;
+                /** @description Which training is compared. */
+                phase?: "locomotion" | "manipulation";
+                /** @description Repeat for several; none: all. */
+                task?: string[];
+                /** @description Repeat for several; none: all. */
+                method?: string[];
+                /** @description Repeat for several; none: all. */
+                preset?: string[];
+                /** @description Ids of runs, to compare these only. */
+                run?: string[];
+                /** @description Id of a study: its runs only. */
+                study?: string | null;
+                metric?: string;
+                /** @description What curves are drawn over. */
+                x?: "epoch" | "env_steps" | "episodes" | "updates" | "wall_seconds";
+                /** @description `seeds` shows each by itself. */
+                statistic?: "median" | "mean" | "iqm" | "seeds";
+                /** @description Of confidence intervals. */
+                level?: number;
+                /** @description Whether to add each seed's own curve. */
+                seeds?: boolean;
+                /** @description Learning curves, or bars of best models. */
+                kind?: "curves" | "best";
+                /** @description One column of a paper, both, or a slide. */
+                width?: "single" | "double" | "slide";
+                log_x?: boolean;
+                log_y?: boolean;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/zip": unknown;
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    get_config_comparison: {
+        parameters: {
+            query: {
+                /** @description Ids of runs. */
+                run: string[];
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ConfigComparison"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    get_figure: {
+        parameters: {
+            query?: {
+                /** @description Which training is compared. */
+                phase?: "locomotion" | "manipulation";
+                /** @description Repeat for several; none: all. */
+                task?: string[];
+                /** @description Repeat for several; none: all. */
+                method?: string[];
+                /** @description Repeat for several; none: all. */
+                preset?: string[];
+                /** @description Ids of runs, to compare these only. */
+                run?: string[];
+                /** @description Id of a study: its runs only. */
+                study?: string | null;
+                metric?: string;
+                /** @description What curves are drawn over. */
+                x?: "epoch" | "env_steps" | "episodes" | "updates" | "wall_seconds";
+                /** @description `seeds` shows each by itself. */
+                statistic?: "median" | "mean" | "iqm" | "seeds";
+                /** @description Of confidence intervals. */
+                level?: number;
+                /** @description Whether to add each seed's own curve. */
+                seeds?: boolean;
+                /** @description Learning curves, or bars of best models. */
+                kind?: "curves" | "best";
+                /** @description One column of a paper, both, or a slide. */
+                width?: "single" | "double" | "slide";
+                log_x?: boolean;
+                log_y?: boolean;
+            };
+            header?: never;
+            path: {
+                format: "svg" | "pdf" | "png" | "csv" | "tex";
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/pdf": unknown;
+                    "application/x-tex": unknown;
+                    "image/png": unknown;
+                    "image/svg+xml": unknown;
+                    "text/csv": unknown;
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    list_compared_metrics: {
+        parameters: {
+            query?: {
+                /** @description Which training is compared. */
+                phase?: "locomotion" | "manipulation";
+                /** @description Repeat for several; none: all. */
+                task?: string[];
+                /** @description Repeat for several; none: all. */
+                method?: string[];
+                /** @description Repeat for several; none: all. */
+                preset?: string[];
+                /** @description Ids of runs, to compare these only. */
+                run?: string[];
+                /** @description Id of a study: its runs only. */
+                study?: string | null;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["backend__comparison__records__MetricNames"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
                 };
             };
             /** @description An error of the service itself. */
@@ -1567,6 +4052,44 @@ export interface operations {
             };
         };
     };
+    list_metrics: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["backend__api__table_schemas__MetricNames"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
     get_queue: {
         parameters: {
             query?: {
@@ -1616,23 +4139,190 @@ export interface operations {
             };
         };
     };
-    list_runs: {
+    list_run_groups: {
         parameters: {
-            query?: {
-                state?: components["schemas"]["RunState"] | null;
-                task?: string | null;
-                method?: string | null;
-                phase?: ("locomotion" | "manipulation") | null;
-                /** @description Words that id, task, method, phase, preset or state hold. */
+            query: {
+                /** @description What the runs of a group share; `settings` is all but the seed. */
+                by: ("task" | "phase" | "method" | "preset" | "state" | "settings")[];
+                /** @description Metric whose spread is wanted, written as a column. */
+                metric?: string;
+                sort?: "launched" | "task" | "phase" | "method" | "preset" | "state" | "settings" | "runs" | "median";
+                descending?: boolean;
+                state?: components["schemas"]["RunState"][];
+                task?: string[];
+                method?: string[];
+                phase?: ("locomotion" | "manipulation")[];
+                preset?: string[];
+                /** @description `settings_hash` of runs that differ in the seed alone. */
+                settings?: string | null;
+                /** @description Tags that a run must all have. */
+                tag?: string[];
+                /** @description Tags of which it must have one. */
+                any_tag?: string[];
+                /** @description Tags of which it must have none. */
+                no_tag?: string[];
+                seed_from?: number | null;
+                seed_to?: number | null;
+                success_from?: number | null;
+                success_to?: number | null;
+                /** @description Words that id, task, method, phase, preset, state, a tag or notes hold. */
                 search?: string | null;
                 /** @description The runs that a person hid, instead of all others. */
                 deleted?: boolean;
-                /** @description `success` is that of the newest test. */
-                sort?: "launched" | "task" | "state" | "success";
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RunGroups"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    download_run_groups: {
+        parameters: {
+            query: {
+                /** @description What the runs of a group share; `settings` is all but the seed. */
+                by: ("task" | "phase" | "method" | "preset" | "state" | "settings")[];
+                /** @description Metric whose spread is wanted, written as a column. */
+                metric?: string;
+                sort?: "launched" | "task" | "phase" | "method" | "preset" | "state" | "settings" | "runs" | "median";
                 descending?: boolean;
+                state?: components["schemas"]["RunState"][];
+                task?: string[];
+                method?: string[];
+                phase?: ("locomotion" | "manipulation")[];
+                preset?: string[];
+                /** @description `settings_hash` of runs that differ in the seed alone. */
+                settings?: string | null;
+                /** @description Tags that a run must all have. */
+                tag?: string[];
+                /** @description Tags of which it must have one. */
+                any_tag?: string[];
+                /** @description Tags of which it must have none. */
+                no_tag?: string[];
+                seed_from?: number | null;
+                seed_to?: number | null;
+                success_from?: number | null;
+                success_to?: number | null;
+                /** @description Words that id, task, method, phase, preset, state, a tag or notes hold. */
+                search?: string | null;
+                /** @description The runs that a person hid, instead of all others. */
+                deleted?: boolean;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description One row a run or group. */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/csv": unknown;
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    list_runs: {
+        parameters: {
+            query?: {
                 limit?: number;
-                /** @description `next_cursor` of the page before. */
+                /** @description `next_cursor` of the page before, to read on while runs change. */
                 cursor?: string | null;
+                /** @description Runs to leave out, to jump into a long table. */
+                offset?: number;
+                state?: components["schemas"]["RunState"][];
+                task?: string[];
+                method?: string[];
+                phase?: ("locomotion" | "manipulation")[];
+                preset?: string[];
+                /** @description `settings_hash` of runs that differ in the seed alone. */
+                settings?: string | null;
+                /** @description Tags that a run must all have. */
+                tag?: string[];
+                /** @description Tags of which it must have one. */
+                any_tag?: string[];
+                /** @description Tags of which it must have none. */
+                no_tag?: string[];
+                seed_from?: number | null;
+                seed_to?: number | null;
+                success_from?: number | null;
+                success_to?: number | null;
+                /** @description Words that id, task, method, phase, preset, state, a tag or notes hold. */
+                search?: string | null;
+                /** @description The runs that a person hid, instead of all others. */
+                deleted?: boolean;
+                /** @description Metrics to show, such as `test/success_rate:last`, `critic/task/loss:best` or `a/b:mean5`. */
+                column?: string[];
+                /** @description `launched`, `task`, `phase`, `method`, `seed`, `preset`, `state`, `progress`, `success` (of the newest test), `best`, `speed`, `left`, `duration`, or a metric written as in `column`. */
+                sort?: string;
+                descending?: boolean;
             };
             header?: never;
             path?: never;
@@ -1647,6 +4337,80 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["RunPage"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    download_runs: {
+        parameters: {
+            query?: {
+                state?: components["schemas"]["RunState"][];
+                task?: string[];
+                method?: string[];
+                phase?: ("locomotion" | "manipulation")[];
+                preset?: string[];
+                /** @description `settings_hash` of runs that differ in the seed alone. */
+                settings?: string | null;
+                /** @description Tags that a run must all have. */
+                tag?: string[];
+                /** @description Tags of which it must have one. */
+                any_tag?: string[];
+                /** @description Tags of which it must have none. */
+                no_tag?: string[];
+                seed_from?: number | null;
+                seed_to?: number | null;
+                success_from?: number | null;
+                success_to?: number | null;
+                /** @description Words that id, task, method, phase, preset, state, a tag or notes hold. */
+                search?: string | null;
+                /** @description The runs that a person hid, instead of all others. */
+                deleted?: boolean;
+                /** @description Metrics to show, such as `test/success_rate:last`, `critic/task/loss:best` or `a/b:mean5`. */
+                column?: string[];
+                /** @description `launched`, `task`, `phase`, `method`, `seed`, `preset`, `state`, `progress`, `success` (of the newest test), `best`, `speed`, `left`, `duration`, or a metric written as in `column`. */
+                sort?: string;
+                descending?: boolean;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description One row a run or group. */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/csv": unknown;
                 };
             };
             /** @description A field or setting cannot work. */
@@ -1823,6 +4587,82 @@ export interface operations {
             };
         };
     };
+    change_run_tags: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["TagChange"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
     get_run: {
         parameters: {
             query?: never;
@@ -1899,6 +4739,135 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Attempts"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    list_run_episodes: {
+        parameters: {
+            query?: {
+                /** @description Only episodes that ended so. */
+                tag?: ("success" | "never_touched" | "dropped" | "overshot" | "too_slow" | "other") | null;
+                /** @description Only those of this test. */
+                epoch?: number | null;
+                /** @description Equal ones stand newest test first. */
+                sort?: "epoch" | "return" | "success" | "worst_q";
+                descending?: boolean;
+                limit?: number;
+                /** @description Rows to leave out. */
+                offset?: number;
+            };
+            header?: never;
+            path: {
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["EpisodeList"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    get_run_episode: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run_id: string;
+                epoch: number;
+                index: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["EpisodeTimelines"];
                 };
             };
             /** @description It does not exist. */
@@ -2334,6 +5303,1126 @@ export interface operations {
             };
         };
     };
+    set_run_notes: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Notes"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    get_run_thumbnail: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "image/webp": unknown;
+                };
+            };
+            /** @description There is none yet; the picture of its task stands in for it. */
+            307: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    list_videos: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Videos"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    order_video: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["VideoOrder"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Video"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    list_studies: {
+        parameters: {
+            query?: {
+                /** @description The studies that a person hid, instead of all others. */
+                deleted?: boolean;
+                limit?: number;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Studies"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    create_study: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["StudyLaunch"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StudyOutcome"];
+                };
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    preview_study: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["StudyPreviewRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StudyPreview"];
+                };
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    list_study_templates: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StudyTemplates"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    get_study: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                study_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StudyDetail"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    delete_study: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                study_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    change_study: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                study_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["StudyChange"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    extend_study: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                study_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["StudyAddition"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StudyOutcome"];
+                };
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    fill_study: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                study_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StudyOutcome"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    restore_study: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                study_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    retry_study: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                study_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["StudyRetry"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ActionResults"];
+                };
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    list_tags: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Tags"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
     get_task_picture: {
         parameters: {
             query?: never;
@@ -2566,6 +6655,285 @@ export interface operations {
             };
             /** @description It does not exist. */
             404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    list_views: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SavedViews"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    save_view: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewView"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SavedView"];
+                };
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    delete_view: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                view_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description A field or setting cannot work. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description An error of the service itself. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description The store cannot be used just now. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+        };
+    };
+    change_view: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                view_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ViewChange"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SavedView"];
+                };
+            };
+            /** @description The request cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Not allowed. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description It does not exist. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
                 headers: {
                     [name: string]: unknown;
                 };

@@ -4,6 +4,8 @@ const SHAPES = {
   runs: 'M4 6h16M4 12h16M4 18h10',
   launch: 'M12 5v14M5 12h14',
   minus: 'M5 12h14',
+  studies: 'M4 4h7v7H4zM13 4h7v7h-7zM4 13h7v7H4zM13 13h7v7h-7z',
+  edit: 'M4 20l1-4.5L16.5 4 20 7.5 8.5 19z',
   queue: 'M9 6h11M9 12h11M9 18h11M4.5 4.5v3M3.5 6l1-1.5 1 1.5M4.5 10.5h.01M4.5 13.5h.01M4.5 18h.01',
   workers: 'M5 5h14v6H5zM5 13h14v6H5zM8.5 8h.01M8.5 16h.01',
   collapse: 'M11 7l-5 5 5 5M18 7l-5 5 5 5',

@@ -1,7 +1,8 @@
 /** How a chart is drawn and what the mouse does in it. */
 import type uPlot from 'uplot';
+import { axisLook, sharedCursor, zoomToSelection } from '@/components/chart-cursor';
 import { drawGhosts, drawMarks, type Ghost, type Mark, withGhosts } from '@/components/line-chart-marks';
-import { lineStyle, type Scheme } from '@/lib/palette';
+import { CHART_INK, lineStyle, type Scheme } from '@/lib/palette';
 
 /** What decides how a chart looks, beside its points. */
 export interface ChartLook {
@@ -29,23 +30,14 @@ interface Current extends ChartLook {
 
 /** All charts of the page share the cursor of this name. */
 const SHARED_CURSOR = 'run';
-/** A drag shorter than this is a click [px]. */
-const LEAST_DRAG = 5;
 /** Points are drawn as dots up to this many. */
 const MOST_DOTS = 120;
 const FADED = '45';
 
-const INK: Record<Scheme, { text: string; grid: string; mark: string }> = {
-  light: { text: '#5c6370', grid: '#eceef1', mark: '#7a4894' },
-  dark: { text: '#9ba3af', grid: '#262b32', mark: '#cf9ce6' },
-};
-
 /** Options for uPlot; what changes between renders is read through `now`. */
 export function chartOptions(now: () => Current, width: number): uPlot.Options {
   const { height, isShare, lines, scheme, xSteps } = now();
-  const ink = INK[scheme];
-  const font = '11px system-ui, sans-serif';
-  const axis: uPlot.Axis = { stroke: ink.text, font, grid: { stroke: ink.grid, width: 1 }, ticks: { show: false } };
+  const axis = axisLook(scheme);
   return {
     width,
     height,
@@ -70,26 +62,12 @@ export function chartOptions(now: () => Current, width: number): uPlot.Options {
       { ...axis, size: 52, gap: 5, space: 28, values: (_plot, splits) => splits.map((value) => now().formatY(value)) },
     ],
     series: [{}, ...seriesOf(now(), lines.length)],
-    cursor: {
-      y: false,
-      drag: { x: true, y: false, setScale: false, dist: LEAST_DRAG },
-      sync: {
-        key: SHARED_CURSOR,
-        scales: ['x', null],
-        filters: { pub: (type) => type === 'mousemove' || type === 'mouseleave', sub: () => true },
-      },
-      bind: {
-        dblclick: () => () => {
-          now().onZoom(null);
-          return null;
-        },
-      },
-    },
+    cursor: sharedCursor(SHARED_CURSOR, (range) => now().onZoom(range)),
     hooks: {
       setCursor: [(plot) => now().onPoint(plot.cursor.idx ?? null)],
       setSelect: [(plot) => zoomToSelection(plot, now().onZoom)],
       drawAxes: [(plot) => drawGhosts(plot, now().ghosts, (line) => lineStyle(line, now().scheme).color)],
-      draw: [(plot) => drawMarks(plot, now().marks, ink.mark)],
+      draw: [(plot) => drawMarks(plot, now().marks, CHART_INK[scheme].mark)],
     },
   };
 }
@@ -128,11 +106,4 @@ function padded(low: number | null, high: number | null): [number, number] {
   // A curve that never falls below zero is drawn from zero when it comes near it.
   const bottom = low >= 0 && low - margin < (high - low) * 0.5 ? 0 : low - margin;
   return [bottom, high + margin];
-}
-
-function zoomToSelection(plot: uPlot, onZoom: Current['onZoom']): void {
-  const { left, width } = plot.select;
-  if (width < LEAST_DRAG) return;
-  onZoom([plot.posToVal(left, 'x'), plot.posToVal(left + width, 'x')]);
-  plot.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
 }

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { lineStyle, type Scheme, STATE_COLORS } from '@/lib/palette';
+import { groupStyle, lineStyle, type Scheme, STATE_COLORS } from '@/lib/palette';
 
 const GROUND: Record<Scheme, string> = { light: '#ffffff', dark: '#1a1d22' };
 const SCHEMES: Scheme[] = ['light', 'dark'];
@@ -31,4 +31,10 @@ test.each(SCHEMES)('every state is readable as text on a %s page', (scheme) => {
 
 test('lines next to each other differ in dash too', () => {
   expect(lineStyle(0, 'light').dash).not.toEqual(lineStyle(1, 'light').dash);
+});
+
+test.each(SCHEMES)('seven methods have a colour and a dash each on a %s page', (scheme) => {
+  const styles = [0, 1, 2, 3, 4, 5, 6].map((place) => groupStyle({ color: place, dash: place }, scheme));
+  expect(new Set(styles.map(({ color }) => color)).size).toBe(7);
+  expect(new Set(styles.map(({ dash }) => dash.join())).size).toBe(7);
 });

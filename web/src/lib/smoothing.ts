@@ -1,5 +1,8 @@
 /** Smooth a curve without moving its start: an exponential mean, freed from the bias of starting at zero. */
 
+/** The most that curves may be smoothed. */
+export const MOST_SMOOTHING = 0.99;
+
 /**
  * Smooth the values of a curve; gaps (null) stay gaps.
  * The past fades with the steps that lie between two points, so curves logged often and rarely are smoothed alike.

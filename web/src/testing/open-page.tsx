@@ -5,7 +5,7 @@ import userEvent from '@testing-library/user-event';
 import { App } from '@/app/app';
 import { makeRouter } from '@/app/router';
 import { FakeServer } from '@/testing/fake-server';
-import { CHOICES, DEFAULTS } from '@/testing/samples';
+import { CHOICES, DEFAULTS, TEMPLATE } from '@/testing/samples';
 
 /** A server that knows the choices, one living worker, and no runs. */
 export function startServer(): FakeServer {
@@ -13,7 +13,11 @@ export function startServer(): FakeServer {
     .on('GET /healthz', () => ({ body: { status: 'ok', version: '0', workers_alive: 1, viewer_alive: true } }))
     .on('GET /api/choices', () => ({ body: CHOICES }))
     .on('GET /api/defaults', () => ({ body: DEFAULTS }))
-    .on('GET /api/runs', () => ({ body: { runs: [], next_cursor: null, total: 0 } }))
+    .on('GET /api/studies/templates', () => ({ body: { templates: [TEMPLATE] } }))
+    .on('GET /api/runs', () => ({ body: { runs: [], values: [], next_cursor: null, total: 0 } }))
+    .on('GET /api/tags', () => ({ body: { tags: [] } }))
+    .on('GET /api/views', () => ({ body: { views: [] } }))
+    .on('GET /api/metric-names', () => ({ body: { names: [] } }))
     .start();
 }
 

@@ -1,5 +1,5 @@
 /** Plausible answers of the server. */
-import type { Choices, RunDetail, RunSummary } from '@/client/schema.gen';
+import type { Choices, RunDetail, RunSummary, StudyDetail, StudyPreview, StudyTemplate } from '@/client/schema.gen';
 
 export const DEFAULTS = {
   task: 'FetchPush',
@@ -114,13 +114,90 @@ export const RUN: RunSummary = {
   gate_waived: false,
   priority: 0,
   deleted_at: null,
+  settings_hash: 'fedcba9876543210',
+  tags: [],
 };
 
 export const DETAIL: RunDetail = {
   ...RUN,
   config: { ...DEFAULTS, agent: { ...DEFAULTS.agent, gamma: 0.99 } },
   config_hash: '0123456789abcdef',
+  notes: '',
   locomotion_run_id: null,
   has_policy: false,
   has_recording: false,
+};
+
+export const TEMPLATE: StudyTemplate = {
+  name: 'two-minutes',
+  title: 'Two minutes of FetchPush',
+  summary: 'See what a study shows.',
+  spec: {
+    tasks: ['FetchPush'],
+    methods: ['her', 'her-sldr'],
+    seeds: [0, 1, 2],
+    preset: 'quick',
+    overrides: { loop: { epochs: 5 } },
+    variants: [],
+  },
+};
+
+const STUDY_RUN = { task: 'FetchPush', state: 'succeeded' as const, reason: null, progress: 1, best_success_rate: 0.9 };
+const CELL = { task: 'FetchPush', variant: '', progress: 1, tested: 1, missing_seeds: [] };
+
+/** A study of which one method is done, and the other misses a seed and has a failed run. */
+export const STUDY: StudyDetail = {
+  id: 'study-1',
+  name: 'Push',
+  note: 'What it is for.',
+  spec: { ...TEMPLATE.spec, seeds: [0, 1], overrides: {} },
+  created_at: '2026-01-01T10:00:00Z',
+  deleted_at: null,
+  size: 4,
+  states: { succeeded: 2, failed: 1 },
+  progress: 0.6,
+  cells: [
+    {
+      ...CELL,
+      method: 'her',
+      runs: [
+        { ...STUDY_RUN, run_id: 'run-1', seed: 0 },
+        { ...STUDY_RUN, run_id: 'run-2', seed: 1, best_success_rate: 0.7 },
+      ],
+      states: { succeeded: 2 },
+      tested: 2,
+      best_success_rate: 0.8,
+    },
+    {
+      ...CELL,
+      method: 'her-sldr',
+      runs: [
+        { ...STUDY_RUN, run_id: 'run-3', seed: 0, state: 'failed', reason: 'The loss became NaN.', progress: 0.4 },
+      ],
+      states: { failed: 1 },
+      progress: 0.2,
+      best_success_rate: 0.42,
+      missing_seeds: [1],
+    },
+  ],
+  locomotion: [{ ...STUDY_RUN, run_id: 'run-0', seed: 0 }],
+};
+
+export const PREVIEW: StudyPreview = {
+  places: [
+    { task: 'FetchPush', method: 'her', variant: '', seed: 0, standing: 'joined', run_id: 'run-1' },
+    { task: 'FetchPush', method: 'her', variant: '', seed: 1, standing: 'new', run_id: null },
+    { task: 'FetchPush', method: 'her-sldr', variant: '', seed: 0, standing: 'new', run_id: null },
+    { task: 'FetchPush', method: 'her-sldr', variant: '', seed: 1, standing: 'new', run_id: null },
+  ],
+  locomotion: [{ task: 'FetchPush', run_id: null }],
+  queued: 4,
+  estimate: {
+    training_s: 4000,
+    until_done_s: 2000,
+    unknown_runs: 0,
+    slots: 2,
+    disk_bytes: 2e9,
+    disk_free_bytes: 5e10,
+  },
 };

@@ -4,11 +4,11 @@ import { useQuery } from '@tanstack/react-query';
 import { useMemo, useState } from 'react';
 import type { Choices, Launch } from '@/client/schema.gen';
 import { defaultsQuery } from '@/lib/queries';
+import { parseSeeds } from '@/lib/seeds';
 import { overridesOf, readSettingGroups } from '@/lib/settings';
 import { planQuery } from './api/plan-launch';
 import { fieldProblems } from './field-problems';
 import type { LaunchSearch } from './search';
-import { parseSeeds } from './seeds';
 
 /** Rest after the last change before the plan is asked for [ms]. */
 const REST_MS = 250;

@@ -1,6 +1,7 @@
 /** Which charts a run has, and the points that each draws. */
 import type { MetricBatch } from '@/client/schema.gen';
-import { formatDuration, formatName, formatShare, formatShort, formatValue } from '@/lib/format';
+import { isShare } from '@/lib/axes';
+import { formatName, formatShare, formatValue } from '@/lib/format';
 import type { Metrics } from '@/lib/metrics';
 import { smooth } from '@/lib/smoothing';
 import type { Axis } from './search';
@@ -44,7 +45,8 @@ export function chartSections(names: readonly string[]): ChartSection[] {
   const sections = new Map<string, Map<string, Series[]>>();
   const shown = new Set(SUCCESS.map(({ metric }) => metric));
   for (const metric of [...names].sort()) {
-    if (shown.has(metric)) continue;
+    // How episodes ended is one stacked chart, among the episodes themselves.
+    if (shown.has(metric) || metric.startsWith('episodes/')) continue;
     const parts = metric.split('/');
     const section = parts.length > 1 ? (parts[0] ?? '') : 'other';
     const last = parts.at(-1) ?? metric;
@@ -59,7 +61,7 @@ export function chartSections(names: readonly string[]): ChartSection[] {
         id: `${name}/${last}`,
         title: formatName(last),
         series,
-        isShare: /(success_rate|fraction|share)$/.test(last),
+        isShare: isShare(last),
       })),
     }))
     .sort((one, other) => rank(one.name) - rank(other.name) || one.name.localeCompare(other.name));
@@ -91,27 +93,6 @@ export function chartPoints(metrics: Metrics, x: readonly number[], chart: Chart
   const steps = rows.map((row) => metrics.step[row] ?? 0);
   const raw = columns.map((column) => rows.map((row) => column[row] ?? null));
   return { x: rows.map((row) => x[row] ?? 0), raw, smoothed: raw.map((column) => smooth(column, steps, weight)), rows };
-}
-
-export const AXIS_NAMES: Record<Axis, string> = {
-  epoch: 'Epoch',
-  env_steps: 'Env steps',
-  updates: 'Updates',
-  wall_seconds: 'Wall time',
-};
-
-/** Ticks of the wall time lie on round numbers of seconds, minutes or hours [s]. */
-const TIME_STEPS = [1, 5, 10, 30, 60, 120, 300, 600, 1800, 3600, 7200, 18_000, 36_000, 86_400];
-
-/** Distances that ticks of an axis may have, where plain round numbers read badly. */
-export function xSteps(axis: Axis): readonly number[] | undefined {
-  return axis === 'wall_seconds' ? TIME_STEPS : undefined;
-}
-
-/** A place on the x axis as text. */
-export function formatX(axis: Axis, value: number): string {
-  if (axis === 'wall_seconds') return formatDuration(value);
-  return axis === 'epoch' ? String(Number(value.toFixed(2))) : formatShort(value);
 }
 
 /** A value of a chart as text. */

@@ -13,9 +13,12 @@ import { FilesTab } from './components/files-tab';
 import { HistoryTab } from './components/history-tab';
 import { LogTab } from './components/log-tab';
 import { OverviewTab } from './components/overview-tab';
+import { RerunTab } from './components/rerun-tab';
 import classes from './components/run.module.css';
 import { RunHeader } from './components/run-header';
+import { VideosTab } from './components/videos-tab';
 import { ViewerTab } from './components/viewer-tab';
+import { EpisodesTab } from './episodes/episodes-tab';
 import { DemonstrationsTab } from './inspector/demonstrations-tab';
 import { type RunSearch, TABS, type Tab } from './search';
 
@@ -24,7 +27,10 @@ const route = getRouteApi('/runs/$runId');
 const TAB_NAMES: Record<Tab, string> = {
   overview: 'Overview',
   '3d': '3D',
+  episodes: 'Episodes',
   demonstrations: 'Demonstrations',
+  rerun: 'Rerun',
+  videos: 'Videos',
   config: 'Config',
   log: 'Log',
   history: 'History',
@@ -75,6 +81,15 @@ function RunTabs({ run }: { run: RunDetail }) {
       </Tabs.Panel>
       <Tabs.Panel value="3d">
         <ViewerTab key={search.episode} run={run} episode={search.episode} />
+      </Tabs.Panel>
+      <Tabs.Panel value="rerun">
+        <RerunTab run={run} />
+      </Tabs.Panel>
+      <Tabs.Panel value="videos">
+        <VideosTab run={run} />
+      </Tabs.Panel>
+      <Tabs.Panel value="episodes">
+        <EpisodesTab run={run} search={search} onShow={show} />
       </Tabs.Panel>
       {run.phase === 'locomotion' && (
         <Tabs.Panel value="demonstrations">

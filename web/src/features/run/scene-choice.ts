@@ -66,9 +66,3 @@ export function recordedEpochs(files: readonly RunFile[]): number[] {
     .map(Number)
     .sort((one, other) => other - one);
 }
-
-/** Read `12.0`, an episode as it stands in an address: epoch and index. */
-export function readEpisode(text: string | undefined): Pick<SceneChoice, 'epoch' | 'index'> | undefined {
-  const match = /^(\d+)\.(\d+)$/.exec(text ?? '');
-  return match ? { epoch: Number(match[1]), index: Number(match[2]) } : undefined;
-}

@@ -1,143 +1,94 @@
-/** All runs, live. */
-import { Button } from '@mantine/core';
+/** All runs, live: a table that is filtered, sorted, grouped and labelled on the server. */
 import { useMediaQuery } from '@mantine/hooks';
-import { useInfiniteQuery } from '@tanstack/react-query';
 import { getRouteApi } from '@tanstack/react-router';
-import { useMemo } from 'react';
-import type { RunSummary } from '@/client/schema.gen';
+import { useCallback, useState } from 'react';
 import { ButtonLink } from '@/components/anchor-link';
 import { Freshness } from '@/components/freshness';
 import { Icon } from '@/components/icon';
 import { SentencePanel } from '@/components/sentence-panel';
 import { sentence } from '@/lib/api';
 import { formatPlural } from '@/lib/format';
-import { listRunsQuery } from './api/list-runs';
 import { BulkBar } from './components/bulk-bar';
+import { ColumnChooser } from './components/column-chooser';
+import { CsvLink } from './components/csv-link';
+import { FilterChips } from './components/filter-chips';
+import { GroupChooser } from './components/group-chooser';
+import { NoRuns } from './components/no-runs';
 import { RunCards } from './components/run-cards';
-import { RunFilters } from './components/run-filters';
+import { FilterPanel, SearchField } from './components/run-filters';
+import classes from './components/runs.module.css';
 import { RunsTable } from './components/runs-table';
-import { isNarrowed, type RunsSearch, searchOf, sortingOf } from './search';
-import { useSelection } from './use-selection';
+import { SortField } from './components/sort-field';
+import { ViewsMenu } from './components/views-menu';
+import type { Range } from './lines';
+import type { RunsSearch } from './search';
+import { useLines } from './use-lines';
+import { MOST_SELECTED, useTable } from './use-table';
 
 const route = getRouteApi('/');
 
 /** Below this width every run is a card. */
 const NARROW = '(max-width: 62em)';
 
-/** As many runs as one request may name. */
-const MOST_SELECTED = 1000;
+/** Lines in view before anything is laid out. */
+const AT_FIRST: Range = { first: 0, last: 40 };
 
 export function RunsPage() {
   const search = route.useSearch();
   const navigate = route.useNavigate();
   const isNarrow = useMediaQuery(NARROW, window.matchMedia(NARROW).matches);
-  const { data, error, dataUpdatedAt, hasNextPage, fetchNextPage, isFetchingNextPage } = useInfiniteQuery(
-    listRunsQuery(search),
+  const [shown, setShown] = useState(AT_FIRST);
+  const lines = useLines(search, shown);
+  const change = useCallback(
+    (changes: RunsSearch): void => {
+      void navigate({ search: (old) => ({ ...old, ...changes }), replace: true, resetScroll: false });
+    },
+    [navigate],
   );
-  const runs = useMemo(() => distinct(data?.pages.flatMap((page) => page.runs) ?? []), [data]);
-  const selection = useSelection(runs.map((run) => run.id));
-  const total = data?.pages[0]?.total ?? 0;
-  const narrow = (changes: RunsSearch): void => {
-    void navigate({ search: (old) => ({ ...old, ...changes }), replace: true });
-  };
-  const selectAll = async (): Promise<void> => {
-    let pages = data?.pages ?? [];
-    for (let more = hasNextPage; more; ) {
-      const next = await fetchNextPage();
-      pages = next.data?.pages ?? pages;
-      more = next.hasNextPage && !next.isError;
-    }
-    selection.selectAll(pages.flatMap((page) => page.runs.map((run) => run.id)));
-  };
+  const table = useTable(search, lines, change);
+  const { total } = lines;
+  const selected = table.selection.runs.map((run) => lines.findRun(run.id) ?? run);
+  const Lines = isNarrow ? RunCards : RunsTable;
   return (
     <>
       <title>Runs · SLDR</title>
       <div className="page-head">
         <h1>{search.deleted ? 'Deleted runs' : 'Runs'}</h1>
-        <span className="faint number">{data && formatPlural(total, 'run')}</span>
-        <Freshness updatedAt={dataUpdatedAt} />
+        <span className="faint number">{total !== undefined && formatPlural(total, 'run')}</span>
+        <Freshness updatedAt={lines.updatedAt} />
         <ButtonLink to="/launch" leftSection={<Icon name="launch" size={14} />} ml="auto">
           New run
         </ButtonLink>
       </div>
-      <RunFilters search={search} hasTable={!isNarrow} onChange={narrow} />
-      {error && !data && (
+      <search className={classes.tools}>
+        <SearchField search={search} onChange={change} />
+        <FilterPanel search={search} onChange={change} />
+        <GroupChooser search={search} onChange={change} />
+        <ColumnChooser search={search} hasTable={!isNarrow} onChange={change} />
+        {(isNarrow || search.group) && <SortField search={search} onChange={change} />}
+        <ViewsMenu />
+        <CsvLink search={search} />
+      </search>
+      <FilterChips search={search} onChange={change} />
+      {lines.error && (
         <SentencePanel urgent title="The runs cannot be shown">
-          {sentence(error)}
+          {sentence(lines.error)}
         </SentencePanel>
       )}
-      {data && runs.length === 0 && <NoRuns search={search} />}
-      {runs.length > 0 &&
-        (isNarrow ? (
-          <RunCards runs={runs} selection={selection} />
-        ) : (
-          <RunsTable
-            runs={runs}
-            selection={selection}
-            sorting={sortingOf(search)}
-            onSort={(sorting) => narrow(searchOf(sorting))}
-          />
-        ))}
-      {hasNextPage && (
-        <Button variant="default" mt="md" loading={isFetchingNextPage} onClick={() => void fetchNextPage()}>
-          Show more of {formatPlural(total, 'run')}
-        </Button>
-      )}
-      {selection.ids.length > 0 && (
+      {total === 0 && <NoRuns search={search} />}
+      {lines.count > 0 && <Lines search={search} lines={lines} table={table} onRange={setShown} />}
+      {selected.length > 0 && (
         <BulkBar
-          runs={runs.filter((run) => selection.has(run.id))}
-          selection={selection}
-          total={total}
-          onSelectAll={total <= MOST_SELECTED ? () => void selectAll() : undefined}
+          runs={selected}
+          selection={table.selection}
+          total={total ?? 0}
+          onSelectAll={
+            total !== undefined && selected.length < total && total <= MOST_SELECTED
+              ? () => table.selectAll(true)
+              : undefined
+          }
         />
       )}
     </>
   );
-}
-
-function NoRuns({ search }: { search: RunsSearch }) {
-  if (isNarrowed(search)) {
-    return (
-      <SentencePanel
-        title="No run matches these filters"
-        actions={
-          <ButtonLink to="/" search={{}} variant="default">
-            Clear the filters
-          </ButtonLink>
-        }
-      />
-    );
-  }
-  if (search.deleted) {
-    return (
-      <SentencePanel
-        title="No run is deleted"
-        actions={
-          <ButtonLink to="/" search={{}} variant="default">
-            All other runs
-          </ButtonLink>
-        }
-      >
-        Deleted runs wait here and can be restored as they were.
-      </SentencePanel>
-    );
-  }
-  return (
-    <SentencePanel
-      title="Nothing has been trained yet"
-      actions={
-        <ButtonLink to="/launch" size="lg">
-          Launch the first run
-        </ButtonLink>
-      }
-    >
-      Choose a task, a method and seeds. An object first learns to move itself to its goal (locomotion); the robot then
-      learns from it (manipulation). With the preset “quick” you can watch both happen.
-    </SentencePanel>
-  );
-}
-
-/** A run that moved from one page to the next between two requests stands on both; once is enough. */
-function distinct(runs: readonly RunSummary[]): RunSummary[] {
-  return [...new Map(runs.map((run) => [run.id, run])).values()];
 }

@@ -1,27 +1,49 @@
-import { act, renderHook } from '@testing-library/react';
+import { act, renderHook, waitFor } from '@testing-library/react';
 import { expect, test } from 'vitest';
+import { RUN } from '@/testing/samples';
+import type { Range, SomeRuns } from './lines';
 import { useSelection } from './use-selection';
 
-const ROWS = ['a', 'b', 'c', 'd'];
+const ROWS = ['a', 'b', 'c', 'd'].map((id) => ({ ...RUN, id }));
+const between = ({ first, last }: Range): SomeRuns => ROWS.slice(first, last + 1);
 
-test('with Shift all rows in between are selected, upwards too', () => {
-  const { result } = renderHook(() => useSelection(ROWS));
-  act(() => result.current.set('d', true, false));
-  act(() => result.current.set('b', true, true));
-  expect(result.current.ids).toEqual(['b', 'c', 'd']);
+function selection(runsBetween: typeof between = between, onProblem: (error: unknown) => void = () => {}) {
+  const { result } = renderHook(() => useSelection(runsBetween, onProblem));
+  const set = (index: number, isSelected: boolean, isRange: boolean): Promise<void> =>
+    act(async () => result.current.setLine(index, isSelected, isRange));
+  return { result, set, ids: () => result.current.runs.map((run) => run.id).sort() };
+}
+
+test('with Shift all rows in between are selected, upwards too', async () => {
+  const { set, ids } = selection();
+  await set(3, true, false);
+  await set(1, true, true);
+  expect(ids()).toEqual(['b', 'c', 'd']);
 });
 
-test('with Shift rows are left out again', () => {
-  const { result } = renderHook(() => useSelection(ROWS));
-  act(() => result.current.selectAll(ROWS));
-  act(() => result.current.set('a', false, false));
-  act(() => result.current.set('c', false, true));
-  expect(result.current.ids).toEqual(['d']);
+test('with Shift rows are left out again', async () => {
+  const { result, set, ids } = selection();
+  act(() => result.current.set(ROWS, true));
+  await set(0, false, false);
+  await set(2, false, true);
+  expect(ids()).toEqual(['d']);
 });
 
-test('a row that is gone is no longer selected', () => {
-  const { result, rerender } = renderHook(({ rows }) => useSelection(rows), { initialProps: { rows: ROWS } });
-  act(() => result.current.selectAll(['a', 'b']));
-  rerender({ rows: ['b', 'c', 'd'] });
-  expect(result.current.ids).toEqual(['b']);
+test('after clearing, Shift begins anew', async () => {
+  const { result, set, ids } = selection();
+  await set(0, true, false);
+  act(() => result.current.clear());
+  await set(2, true, true);
+  expect(ids()).toEqual(['c']);
+});
+
+test('rows that cannot be fetched are told of, and none is selected', async () => {
+  const problems: unknown[] = [];
+  const { set, ids } = selection(
+    () => Promise.reject(new Error('away')),
+    (error) => problems.push(error),
+  );
+  await set(1, true, false);
+  await waitFor(() => expect(problems).toEqual([new Error('away')]));
+  expect(ids()).toEqual([]);
 });

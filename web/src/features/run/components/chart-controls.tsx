@@ -1,8 +1,9 @@
 /** What holds for all charts: the x axis, the smoothing, the zoom. */
-import { ActionIcon, Button, SegmentedControl, Slider } from '@mantine/core';
+import { ActionIcon, Button, SegmentedControl } from '@mantine/core';
 import { Icon } from '@/components/icon';
-import { AXIS_NAMES } from '../charts';
-import { AXES, type Axis, MOST_SMOOTHING } from '../search';
+import { SmoothingSlider } from '@/components/smoothing-slider';
+import { AXIS_NAMES } from '@/lib/axes';
+import { AXES, type Axis } from '../search';
 import classes from './charts.module.css';
 
 interface Props {
@@ -29,21 +30,7 @@ export function ChartControls({ axis, weight, isZoomed, onAxis, onWeight, onZoom
         onChange={(value) => onAxis(value as Axis)}
         data={AXES.map((value) => ({ value, label: AXIS_NAMES[value] }))}
       />
-      <div className={classes.smoothing}>
-        <span id="smoothing-name">Smoothing</span>
-        <Slider
-          size="sm"
-          w={120}
-          min={0}
-          max={MOST_SMOOTHING}
-          step={0.01}
-          value={weight}
-          onChange={(value) => onWeight(Number(value.toFixed(2)))}
-          label={null}
-          thumbLabel="Smoothing"
-        />
-        <span className="number faint">{weight.toFixed(2)}</span>
-      </div>
+      <SmoothingSlider weight={weight} onWeight={onWeight} />
       <div className={classes.zoom}>
         <ActionIcon variant="default" size="sm" aria-label="Zoom in" onClick={() => onZoom(ZOOM)}>
           <Icon name="launch" size={13} />

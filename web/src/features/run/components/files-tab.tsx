@@ -6,6 +6,7 @@ import { SentencePanel } from '@/components/sentence-panel';
 import { sentence } from '@/lib/api';
 import { formatMoment, formatSize } from '@/lib/format';
 import { filesQuery } from '../api/run-records';
+import { isRecording, openCommand } from '../recordings';
 import classes from './run.module.css';
 
 export function FilesTab({ runId }: { runId: string }) {
@@ -49,7 +50,7 @@ export function FilesTab({ runId }: { runId: string }) {
               <td className="mono faint" title={sha256}>
                 {sha256.slice(0, 12)}
               </td>
-              <td>{name.endsWith('.rrd') && <Command text={`rerun ${name}`} />}</td>
+              <td>{isRecording({ name }) && <Command text={openCommand({ name })} />}</td>
             </tr>
           ))}
         </tbody>

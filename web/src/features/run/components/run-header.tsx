@@ -6,18 +6,22 @@ import { AnchorLink, ButtonLink } from '@/components/anchor-link';
 import { Freshness } from '@/components/freshness';
 import { Icon } from '@/components/icon';
 import { Reason } from '@/components/reason';
+import { RunThumbnail } from '@/components/run-thumbnail';
 import { StateBadge } from '@/components/state-badge';
 import { formatMoment } from '@/lib/format';
 import { hasEnded, wishOf } from '@/lib/states';
 import { filesQuery } from '../api/run-records';
+import { newestRecording, openCommand } from '../recordings';
 import classes from './run.module.css';
 import { RunActions } from './run-actions';
 import { RunFigures } from './run-figures';
+import { RunLabels } from './run-labels';
 
 export function RunHeader({ run, updatedAt }: { run: RunDetail; updatedAt: number }) {
   return (
     <header className={classes.header}>
       <div className="page-head">
+        <RunThumbnail runId={run.id} version={`${run.state}-${run.progress?.epoch ?? 0}`} width={72} />
         <h1>{run.task}</h1>
         <StateBadge state={run.state} wish={wishOf(run)} />
         {!hasEnded(run.state) && <Freshness updatedAt={updatedAt} />}
@@ -46,13 +50,14 @@ export function RunHeader({ run, updatedAt }: { run: RunDetail; updatedAt: numbe
           it back as it was.
         </p>
       )}
-      <Notes run={run} />
+      <Standing run={run} />
+      <RunLabels run={run} />
       <RunFigures run={run} />
     </header>
   );
 }
 
-function Notes({ run }: { run: RunDetail }) {
+function Standing({ run }: { run: RunDetail }) {
   return (
     <p className={classes.notes}>
       <span className="faint">
@@ -80,11 +85,7 @@ function Notes({ run }: { run: RunDetail }) {
 
 function RecordingButton({ runId }: { runId: string }) {
   const { data } = useQuery(filesQuery(runId));
-  // The newest attempt's recording; attempts are counted in the name.
-  const recording = data?.files
-    .filter((file) => file.name.endsWith('.rrd'))
-    .sort(byName)
-    .at(-1);
+  const recording = newestRecording(data?.files);
   if (recording === undefined) return null;
   return (
     <Button
@@ -94,13 +95,9 @@ function RecordingButton({ runId }: { runId: string }) {
       variant="default"
       size="xs"
       leftSection={<Icon name="download" size={14} />}
-      title={`Opens with: rerun ${recording.name}`}
+      title={`Opens with: ${openCommand(recording)}`}
     >
       Rerun recording
     </Button>
   );
-}
-
-function byName(one: { name: string }, other: { name: string }): number {
-  return one.name.localeCompare(other.name, 'en', { numeric: true });
 }

@@ -4,10 +4,19 @@ import { SceneFrame } from '@/components/scene/scene-frame';
 import { TimelinesPanel } from '@/components/scene/timelines-panel';
 import { TransportBar } from '@/components/scene/transport-bar';
 import { useSceneControl } from '@/lib/use-scene-control';
+import { CameraInset } from './camera-inset';
 import classes from './run.module.css';
 import { SceneExtras } from './scene-extras';
 
-export function SceneView({ url, message, onClose }: { url: string; message: string; onClose: () => void }) {
+interface Props {
+  url: string;
+  message: string;
+  /** The recorded episode that is shown, if it is one: MuJoCo's own camera can stand beside it. */
+  recorded?: { readonly runId: string; readonly epoch: number; readonly number: number };
+  onClose: () => void;
+}
+
+export function SceneView({ url, message, recorded, onClose }: Props) {
   const scene = useSceneControl(url);
   return (
     <section aria-label="3D view">
@@ -27,6 +36,7 @@ export function SceneView({ url, message, onClose }: { url: string; message: str
               {scene.problem}
             </p>
           )}
+          {recorded && <CameraInset {...recorded} step={scene.state.step} />}
           <TimelinesPanel scene={scene} />
         </>
       )}

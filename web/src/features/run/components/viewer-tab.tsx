@@ -5,7 +5,8 @@ import type { RunDetail } from '@/client/schema.gen';
 import { SentencePanel } from '@/components/sentence-panel';
 import { sentence } from '@/lib/api';
 import { useViewerSession } from '../api/viewer-session';
-import { FIRST_CHOICE, readEpisode, type SceneChoice, sceneRequest } from '../scene-choice';
+import { readEpisode } from '../episodes/place';
+import { FIRST_CHOICE, type SceneChoice, sceneRequest } from '../scene-choice';
 import { SceneChoiceForm } from './scene-choice-form';
 import { SceneView } from './scene-view';
 
@@ -49,7 +50,9 @@ export function ViewerTab({ run, episode }: { run: RunDetail; episode: string | 
     );
   }
   if (session?.state === 'ready' && session.url !== null) {
-    return <SceneView url={session.url} message={session.message ?? ''} onClose={close} />;
+    const { kind, epoch, index } = choice.current;
+    const recorded = kind === 'episode' ? { runId: run.id, epoch, number: index } : undefined;
+    return <SceneView url={session.url} message={session.message ?? ''} recorded={recorded} onClose={close} />;
   }
   if (session || isOpening) {
     return (

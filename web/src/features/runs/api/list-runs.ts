@@ -1,27 +1,45 @@
-/** The rows of the runs table, kept fresh. */
-import { infiniteQueryOptions, keepPreviousData } from '@tanstack/react-query';
+/** Pages of the runs table, each fetched on its own, so that only what is looked at is kept fresh. */
+import { keepPreviousData, queryOptions } from '@tanstack/react-query';
+import type { RunPage } from '@/client/schema.gen';
 import { client, unwrap } from '@/lib/api';
 import { POLL_MS } from '@/lib/queries';
-import { type RunsSearch, sortingOf } from '../search';
+import { filterOf, filterQuery, type RunsSearch } from '../search';
+import { runSortingOf } from '../sorting';
 
-/** Rows asked for at once. */
-const PAGE_SIZE = 50;
+/** Rows of a page. */
+export const PAGE_SIZE = 50;
 
-export function listRunsQuery(search: RunsSearch) {
-  const { state, task, phase, method, search: words } = search;
-  const wanted = { state, task, phase, method, search: words, deleted: search.deleted === 'yes' };
-  return infiniteQueryOptions({
-    queryKey: ['runs', 'list', search],
-    queryFn: ({ pageParam, signal }) =>
-      unwrap(
-        client.GET('/api/runs', {
-          params: { query: { ...wanted, ...sortingOf(search), limit: PAGE_SIZE, cursor: pageParam } },
-          signal,
-        }),
-      ),
-    initialPageParam: undefined as string | undefined,
-    getNextPageParam: (page) => page.next_cursor ?? undefined,
+/** Rows that are asked for at once when all are wanted. */
+const LARGE_PAGE = 200;
+
+/** One page, kept fresh while it is looked at. */
+export function runsPageQuery(search: RunsSearch, page: number) {
+  const wanted = { filter: filterOf(search), sorting: runSortingOf(search), columns: search.columns };
+  return queryOptions({
+    queryKey: ['runs', 'list', wanted, page],
+    queryFn: ({ signal }) => fetchRuns(search, page * PAGE_SIZE, PAGE_SIZE, signal),
     refetchInterval: POLL_MS,
-    placeholderData: keepPreviousData,
+    // While other filters are fetched, the old rows stay; a page further down has no old rows.
+    placeholderData: page === 0 ? keepPreviousData : undefined,
   });
+}
+
+/** The runs from one row on, as they are now. */
+export async function fetchRuns(
+  search: RunsSearch,
+  offset: number,
+  limit: number,
+  signal?: AbortSignal,
+): Promise<RunPage> {
+  const query = { ...filterQuery(filterOf(search)), ...runSortingOf(search), column: [...(search.columns ?? [])] };
+  return unwrap(client.GET('/api/runs', { params: { query: { ...query, offset, limit } }, signal }));
+}
+
+/** The runs between two rows, both included. */
+export async function fetchRowsBetween(search: RunsSearch, first: number, last: number): Promise<RunPage['runs']> {
+  const starts = Array.from({ length: Math.ceil((last - first + 1) / LARGE_PAGE) }, (_, i) => first + i * LARGE_PAGE);
+  const pages = await Promise.all(
+    starts.map((start) => fetchRuns(search, start, Math.min(LARGE_PAGE, last - start + 1))),
+  );
+  return pages.flatMap((page) => page.runs);
 }

@@ -13,15 +13,17 @@ import { ACTION_MEANING, ACTION_NAMES, ACTIONS, type Action, allowing } from '@/
 import { hasEnded } from '@/lib/states';
 import { useSetPriority } from '@/lib/use-run-actions';
 import type { Selection } from '../use-selection';
+import { BulkCompare } from './bulk-compare';
+import { BulkTags } from './bulk-tags';
 import classes from './runs.module.css';
 
 interface Props {
   /** The selected runs. */
   runs: readonly RunSummary[];
   selection: Selection;
-  /** Runs that pass the filters, on all pages. */
+  /** Runs that pass the filters, in view or not. */
   total: number;
-  /** Select them all; left out where there are too many. */
+  /** Select them all; left out where that is done, or there are too many. */
   onSelectAll?: () => void;
 }
 
@@ -34,7 +36,7 @@ export function BulkBar({ runs, selection, total, onSelectAll }: Props) {
   return (
     <div className={classes.bulk} role="toolbar" aria-label="Selected runs">
       <b className="number">{formatPlural(runs.length, 'run')} selected</b>
-      {onSelectAll && runs.length < total && (
+      {onSelectAll && (
         <Button variant="subtle" size="compact-xs" onClick={onSelectAll}>
           Select all {total}
         </Button>
@@ -44,6 +46,8 @@ export function BulkBar({ runs, selection, total, onSelectAll }: Props) {
           <BulkAction key={action} action={action} runs={runs} isBusy={isActing} onAct={act} />
         ))}
         {waiting.length > 0 && <BulkPriority runs={waiting} />}
+        <BulkTags runs={runs} />
+        <BulkCompare runs={runs} />
       </span>
       <Button variant="subtle" size="compact-sm" onClick={selection.clear}>
         Clear

@@ -1,75 +1,116 @@
-/** The runs as cards, for narrow screens. */
-import type { RunSummary } from '@/client/schema.gen';
+/** The runs as cards, for narrow screens; they scroll with the page. */
+import { useWindowVirtualizer } from '@tanstack/react-virtual';
+import { useEffect, useLayoutEffect, useRef, useState } from 'react';
 import { AnchorLink } from '@/components/anchor-link';
-import { RunProgress } from '@/components/run-progress';
-import { StateBadge } from '@/components/state-badge';
-import { formatDuration } from '@/lib/format';
-import { runTitle } from '@/lib/run-title';
-import { wishOf } from '@/lib/states';
-import type { Selection } from '../use-selection';
-import { Elapsed, Launched, Speed, Success } from './run-figures';
-import { hasNote, RunNote } from './run-note';
-import classes from './runs.module.css';
+import { formatPlural } from '@/lib/format';
+import { groupTitle } from '../group-words';
+import { useLineKeys } from '../use-line-keys';
+import type { TableProps } from '../use-table';
+import { GroupWords } from './group-line';
+import classes from './lines.module.css';
+import { RunCard } from './run-card';
 import { SelectBox } from './select-box';
+import { heightOf, OVERSCAN, VirtualLines, withActive } from './virtual-lines';
 
-export function RunCards({ runs, selection }: { runs: readonly RunSummary[]; selection: Selection }) {
-  return (
-    <ul className={classes.cards} aria-label="Runs">
-      {runs.map((run) => (
-        <li
-          key={run.id}
-          className={`card ${classes.card}`}
-          data-run={run.id}
-          data-selected={selection.has(run.id) || undefined}
-        >
-          <div className={classes.cardHead}>
-            <SelectBox run={run} selection={selection} />
-            <AnchorLink to="/runs/$runId" params={{ runId: run.id }} fw={600} aria-label={runTitle(run)}>
-              {run.task}
-            </AnchorLink>
-            <StateBadge state={run.state} wish={wishOf(run)} />
-          </div>
-          <div className="faint">
-            {run.phase} · {run.method} · seed {run.seed} · {run.preset}
-          </div>
-          {run.progress && (
-            <RunProgress progress={run.progress} state={run.state} label={`Progress of ${runTitle(run)}`} />
-          )}
-          <dl className={classes.figures}>
-            {run.progress && (
-              <Figure name="Success">
-                <Success progress={run.progress} />
-              </Figure>
-            )}
-            {run.state === 'running' && (
-              <>
-                <Figure name="Steps / updates per s">
-                  <Speed run={run} />
-                </Figure>
-                <Figure name="Left">{formatDuration(run.progress?.seconds_left)}</Figure>
-              </>
-            )}
-            {run.started_at && (
-              <Figure name="Duration">
-                <Elapsed run={run} />
-              </Figure>
-            )}
-            <Figure name="Launched">
-              <Launched run={run} />
-            </Figure>
-          </dl>
-          {hasNote(run) && <RunNote run={run} runs={runs} />}
+/** Of a card with figures [px]. */
+const CARD_HEIGHT = 168;
+
+/** Height of what covers the top of the page [px]. */
+const BAR_HEIGHT = 60;
+
+export function RunCards({ search, lines, table, onRange }: TableProps) {
+  const list = useRef<HTMLUListElement>(null);
+  const [top, setTop] = useState(0);
+  useLayoutEffect(() => setTop(list.current?.offsetTop ?? 0), []);
+  const keys = useLineKeys({
+    count: lines.count,
+    scrollTo: (index) => virtualizer.scrollToIndex(index, { align: 'auto' }),
+    onExtend: table.extend,
+    onEnter: table.enter,
+    onClear: table.selection.clear,
+  });
+  const virtualizer = useWindowVirtualizer<HTMLElement>({
+    count: lines.count,
+    estimateSize: () => CARD_HEIGHT,
+    measureElement: heightOf(CARD_HEIGHT),
+    scrollMargin: top,
+    scrollPaddingStart: BAR_HEIGHT,
+    overscan: OVERSCAN / 2,
+    rangeExtractor: withActive(keys.active),
+  });
+  const { startIndex: first = 0, endIndex: last = 0 } = virtualizer.range ?? {};
+  useEffect(() => onRange({ first: Math.max(0, first - OVERSCAN), last: last + OVERSCAN }), [first, last, onRange]);
+
+  const draw = (index: number) => {
+    const line = lines.lineAt(index);
+    const place = { ref: virtualizer.measureElement, 'data-index': index, 'data-line': index };
+    const box = { isActive: index === keys.active, onFocus: () => keys.setActive(index) };
+    if (line.kind === 'run') {
+      const isSelected = table.selection.has(line.run.id);
+      return (
+        <li {...place} data-run={line.run.id}>
+          <RunCard
+            line={line}
+            metrics={search.columns ?? []}
+            isSelected={isSelected}
+            findRun={lines.findRun}
+            onTag={table.pickTag}
+            box={{
+              ...box,
+              onSelect: (chosen, isRange) => table.selection.setLine(index, chosen, isRange),
+            }}
+          />
         </li>
-      ))}
-    </ul>
-  );
-}
-
-function Figure({ name, children }: { name: string; children: React.ReactNode }) {
+      );
+    }
+    if (line.kind === 'group') {
+      const { group } = line;
+      const title = groupTitle(group, search.group ?? []);
+      const selected = table.selectedIn(group);
+      return (
+        <li {...place}>
+          <div className={`card ${classes.card}`}>
+            <div className={classes.cardHead}>
+              <SelectBox
+                {...box}
+                label={`Select the ${formatPlural(group.runs, 'run')} of ${title}`}
+                isSelected={selected === group.runs}
+                isPartly={selected > 0 && selected < group.runs}
+                onSelect={(chosen) => table.selectGroup(group, chosen)}
+              />
+              <GroupWords
+                group={group}
+                title={title}
+                isOpen={line.isOpen}
+                spread={search.spread}
+                onToggle={() => table.enter(index)}
+              />
+            </div>
+          </div>
+        </li>
+      );
+    }
+    return (
+      <li {...place}>
+        <div className={`card ${classes.card}`}>
+          {line.kind === 'more' ? (
+            <AnchorLink to="/" search={line.search}>
+              Show all, {formatPlural(line.count, 'run')} more
+            </AnchorLink>
+          ) : (
+            <span className={classes.bone} aria-hidden="true" />
+          )}
+        </div>
+      </li>
+    );
+  };
   return (
-    <div>
-      <dt className="faint">{name}</dt>
-      <dd className="number">{children}</dd>
-    </div>
+    <ul className={classes.cards} aria-label="Runs" ref={list} onKeyDown={keys.onKeyDown}>
+      <VirtualLines
+        virtualizer={virtualizer}
+        draw={draw}
+        room={(height) => <li aria-hidden="true" style={{ height }} />}
+      />
+    </ul>
   );
 }

@@ -10,7 +10,7 @@ import {
   secondsBetween,
 } from '@/lib/format';
 import { useNow } from '@/lib/use-now';
-import classes from './runs.module.css';
+import classes from './lines.module.css';
 
 /** Success of the newest test, and the best so far. */
 export function Success({ progress }: { progress: Progress | null }) {

@@ -1,103 +1,34 @@
-/** Narrow the runs table by state, task, phase, method, or any word. */
-import { Button, Select, Switch, TextInput } from '@mantine/core';
+/** Narrow the table: a field for any word, and a panel for everything else. */
+import { Button, FocusTrap, MultiSelect, NumberInput, Popover, Switch, TextInput } from '@mantine/core';
 import { useDebouncedCallback } from '@mantine/hooks';
 import { useQuery } from '@tanstack/react-query';
-import { useState } from 'react';
+import { useEffect, useState } from 'react';
 import { Icon } from '@/components/icon';
+import { TagField } from '@/components/tag-field';
 import { choicesQuery } from '@/lib/queries';
 import { RUN_STATES } from '@/lib/states';
-import { isNarrowed, type RunsSearch, SORT_KEYS, type SortKey, searchOf, sortingOf } from '../search';
+import { PHASES, type RunsFilter } from '../search';
 import classes from './runs.module.css';
 
 /** Rest after the last key before the search starts [ms]. */
 const TYPING_REST_MS = 250;
 
-const SORT_NAMES: Record<SortKey, string> = {
-  launched: 'By launch',
-  state: 'By state',
-  success: 'By success',
-  task: 'By task',
-};
-
 interface Props {
-  search: RunsSearch;
-  /** Whether there is a table, whose heads sort it; cards need a field for that. */
-  hasTable: boolean;
-  onChange: (changes: RunsSearch) => void;
+  search: RunsFilter;
+  onChange: (changes: RunsFilter) => void;
 }
 
-export function RunFilters({ search, hasTable, onChange }: Props) {
-  const { data: choices } = useQuery(choicesQuery);
-  const isActive = isNarrowed(search);
-  // A new search field for each clearing, as it holds what was typed.
-  const [clearings, setClearings] = useState(0);
-  return (
-    <search className={classes.filters}>
-      <SearchField key={clearings} text={search.search ?? ''} onChange={onChange} />
-      <Filter
-        label="State"
-        value={search.state}
-        names={RUN_STATES}
-        onPick={(state) => onChange({ state: state as RunsSearch['state'] })}
-      />
-      <Filter
-        label="Task"
-        value={search.task}
-        names={choices?.tasks.map((task) => task.name)}
-        onPick={(task) => onChange({ task })}
-      />
-      <Filter
-        label="Phase"
-        value={search.phase}
-        names={choices?.phases}
-        onPick={(phase) => onChange({ phase: phase as RunsSearch['phase'] })}
-      />
-      <Filter
-        label="Method"
-        value={search.method}
-        names={choices?.methods.map((method) => method.name)}
-        onPick={(method) => onChange({ method })}
-      />
-      {!hasTable && <SortField search={search} onChange={onChange} />}
-      <Switch
-        size="xs"
-        label="Deleted"
-        checked={search.deleted === 'yes'}
-        onChange={(event) => onChange({ deleted: event.currentTarget.checked ? 'yes' : undefined })}
-      />
-      {isActive && (
-        <Button
-          variant="subtle"
-          size="compact-sm"
-          onClick={() => {
-            setClearings(clearings + 1);
-            onChange({ state: undefined, task: undefined, phase: undefined, method: undefined, search: undefined });
-          }}
-        >
-          Clear
-        </Button>
-      )}
-    </search>
-  );
-}
-
-function SortField({ search, onChange }: Pick<Props, 'search' | 'onChange'>) {
-  const { sort } = sortingOf(search);
-  return (
-    <Select
-      size="xs"
-      className={classes.filter}
-      aria-label="Sort by"
-      data={Object.entries(SORT_NAMES).map(([value, label]) => ({ value, label }))}
-      value={sort}
-      onChange={(key) => key && onChange(searchOf({ sort: key as SortKey, descending: SORT_KEYS[key as SortKey] }))}
-    />
-  );
-}
-
-function SearchField({ text, onChange }: { text: string; onChange: Props['onChange'] }) {
+export function SearchField({ search: { search: text = '' }, onChange }: Props) {
   const [typed, setTyped] = useState(text);
-  const apply = useDebouncedCallback((next: string) => onChange({ search: next || undefined }), TYPING_REST_MS);
+  // What was typed last is on its way into the address; anything else there came from outside.
+  const [sent, setSent] = useState(text);
+  useEffect(() => {
+    if (text !== sent) setTyped(text);
+  }, [text, sent]);
+  const apply = useDebouncedCallback((next: string) => {
+    setSent(next);
+    onChange({ search: next || undefined });
+  }, TYPING_REST_MS);
   return (
     <TextInput
       size="xs"
@@ -115,25 +46,138 @@ function SearchField({ text, onChange }: { text: string; onChange: Props['onChan
   );
 }
 
-interface FilterProps {
-  label: string;
-  value: string | undefined;
-  names: readonly string[] | undefined;
-  onPick: (name: string | undefined) => void;
+export function FilterPanel(props: Props) {
+  const { search, onChange } = props;
+  return (
+    <Popover position="bottom-start" shadow="md" trapFocus>
+      <Popover.Target>
+        <Button variant="default" size="xs">
+          Filter
+        </Button>
+      </Popover.Target>
+      <Popover.Dropdown>
+        <div className={classes.choices}>
+          <FocusTrap.InitialFocus />
+          <Choices {...props} />
+          <TagField label="Has all tags" value={search.tag ?? []} onChange={(tag) => onChange({ tag: some(tag) })} />
+          <TagField
+            label="Has any of the tags"
+            value={search.any_tag ?? []}
+            onChange={(tags) => onChange({ any_tag: some(tags) })}
+          />
+          <TagField
+            label="Has none of the tags"
+            value={search.no_tag ?? []}
+            onChange={(tags) => onChange({ no_tag: some(tags) })}
+          />
+          <div className={classes.pair}>
+            <Bound label="Seed from" value={search.seed_from} onSet={(seed_from) => onChange({ seed_from })} />
+            <Bound label="Seed to" value={search.seed_to} onSet={(seed_to) => onChange({ seed_to })} />
+            <Bound
+              label="Success from"
+              unit=" %"
+              value={inPercent(search.success_from)}
+              onSet={(share) => onChange({ success_from: ofPercent(share) })}
+            />
+            <Bound
+              label="Success to"
+              unit=" %"
+              value={inPercent(search.success_to)}
+              onSet={(share) => onChange({ success_to: ofPercent(share) })}
+            />
+          </div>
+          <Switch
+            size="xs"
+            label="Deleted runs, instead of all others"
+            checked={search.deleted === 'yes'}
+            onChange={(event) => onChange({ deleted: event.currentTarget.checked ? 'yes' : undefined })}
+          />
+        </div>
+      </Popover.Dropdown>
+    </Popover>
+  );
 }
 
-function Filter({ label, value, names = [], onPick }: FilterProps) {
-  const data = value !== undefined && !names.includes(value) ? [...names, value] : [...names];
+function Choices({ search, onChange }: Props) {
+  const { data } = useQuery(choicesQuery);
+  const names = (list: readonly { name: string }[] | undefined): string[] => list?.map(({ name }) => name) ?? [];
   return (
-    <Select
+    <>
+      <Several label="State" value={search.state} names={RUN_STATES} onPick={(state) => onChange({ state })} />
+      <Several label="Task" value={search.task} names={names(data?.tasks)} onPick={(task) => onChange({ task })} />
+      <Several label="Phase" value={search.phase} names={PHASES} onPick={(phase) => onChange({ phase })} />
+      <Several
+        label="Method"
+        value={search.method}
+        names={names(data?.methods)}
+        onPick={(method) => onChange({ method })}
+      />
+      <Several
+        label="Preset"
+        value={search.preset}
+        names={names(data?.presets)}
+        onPick={(preset) => onChange({ preset })}
+      />
+    </>
+  );
+}
+
+interface SeveralProps<Name extends string> {
+  label: string;
+  value: readonly Name[] | undefined;
+  names: readonly Name[];
+  onPick: (names: readonly Name[] | undefined) => void;
+}
+
+function Several<Name extends string>({ label, value = [], names, onPick }: SeveralProps<Name>) {
+  return (
+    <MultiSelect
       size="xs"
-      className={classes.filter}
-      aria-label={label}
-      placeholder={`Any ${label.toLowerCase()}`}
-      data={data}
-      value={value ?? null}
-      onChange={(name) => onPick(name ?? undefined)}
+      label={label}
+      placeholder={value.length === 0 ? 'Any' : undefined}
+      data={[...new Set([...names, ...value])]}
+      value={[...value]}
+      onChange={(chosen) => onPick(some(chosen as Name[]))}
+      comboboxProps={{ withinPortal: false }}
+      searchable
       clearable
     />
   );
+}
+
+interface BoundProps {
+  label: string;
+  unit?: string;
+  value: number | undefined;
+  onSet: (value: number | undefined) => void;
+}
+
+function Bound({ label, unit, value, onSet }: BoundProps) {
+  return (
+    <NumberInput
+      size="xs"
+      label={label}
+      placeholder="Any"
+      min={0}
+      max={unit ? 100 : 2 ** 31 - 1}
+      clampBehavior="strict"
+      allowDecimal={unit !== undefined}
+      suffix={unit}
+      value={value ?? ''}
+      onChange={(typed) => onSet(typed === '' ? undefined : Number(typed))}
+      hideControls
+    />
+  );
+}
+
+function inPercent(share: number | undefined): number | undefined {
+  return share === undefined ? undefined : Number((share * 100).toFixed(2));
+}
+
+function ofPercent(percent: number | undefined): number | undefined {
+  return percent === undefined ? undefined : percent / 100;
+}
+
+function some<T>(list: readonly T[]): readonly T[] | undefined {
+  return list.length === 0 ? undefined : list;
 }

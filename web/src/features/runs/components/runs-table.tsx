@@ -1,183 +1,136 @@
-/** The runs as a dense table. */
-import { useNavigate } from '@tanstack/react-router';
-import type { MouseEvent } from 'react';
-import type { RunSummary } from '@/client/schema.gen';
+/** The runs as a dense table that scrolls by itself, however many they are. */
+import { useVirtualizer } from '@tanstack/react-virtual';
+import { useEffect, useRef } from 'react';
 import { AnchorLink } from '@/components/anchor-link';
-import { RunProgress } from '@/components/run-progress';
-import { StateBadge } from '@/components/state-badge';
-import { formatDuration, NOTHING } from '@/lib/format';
-import { runTitle } from '@/lib/run-title';
-import { wishOf } from '@/lib/states';
-import { SORT_KEYS, type Sorting, type SortKey } from '../search';
-import type { Selection } from '../use-selection';
-import { Elapsed, Launched, Speed, Success } from './run-figures';
-import { hasNote, RunNote } from './run-note';
-import classes from './runs.module.css';
-import { SelectBox } from './select-box';
+import { formatPlural } from '@/lib/format';
+import { BUILT_INS, METRIC_WIDTH, shownColumns } from '../columns';
+import { useLineKeys } from '../use-line-keys';
+import type { TableProps } from '../use-table';
+import { GroupLine } from './group-line';
+import classes from './lines.module.css';
+import { RunLine } from './run-line';
+import { TableHead } from './table-head';
+import { heightOf, OVERSCAN, VirtualLines, withActive } from './virtual-lines';
 
-interface Column {
-  readonly name: string;
-  readonly isNumber?: boolean;
-  readonly help?: string;
-  readonly sort?: SortKey;
-}
+/** Of a line without a note, and of the head [px]. */
+const LINE_HEIGHT = 36;
+const SELECT_WIDTH = 40; // [px]
 
-const COLUMNS: readonly Column[] = [
-  { name: 'State', sort: 'state' },
-  { name: 'Task', sort: 'task' },
-  { name: 'Phase' },
-  { name: 'Method' },
-  { name: 'Seed', isNumber: true },
-  { name: 'Preset' },
-  { name: 'Progress', help: 'Epoch it is in, of all epochs' },
-  {
-    name: 'Success',
-    isNumber: true,
-    help: 'Success of the newest test, and the best of all tests',
-    sort: 'success',
-  },
-  { name: 'Speed', isNumber: true, help: 'Environment steps per second, and gradient updates per second' },
-  { name: 'Time left', isNumber: true },
-  { name: 'Duration', isNumber: true },
-  { name: 'Launched', isNumber: true, sort: 'launched' },
-];
+export function RunsTable({ search, lines, table, onRange }: TableProps) {
+  const frame = useRef<HTMLDivElement>(null);
+  const columns = shownColumns(search.show);
+  const metrics = search.columns ?? [];
+  const span = columns.length + metrics.length;
+  const keys = useLineKeys({
+    count: lines.count,
+    scrollTo: (index) => virtualizer.scrollToIndex(index, { align: 'auto' }),
+    onExtend: table.extend,
+    onEnter: table.enter,
+    onClear: table.selection.clear,
+  });
+  const virtualizer = useVirtualizer<HTMLDivElement, HTMLElement>({
+    count: lines.count,
+    getScrollElement: () => frame.current,
+    estimateSize: () => LINE_HEIGHT,
+    measureElement: heightOf(LINE_HEIGHT),
+    scrollMargin: LINE_HEIGHT,
+    scrollPaddingStart: LINE_HEIGHT,
+    overscan: OVERSCAN,
+    rangeExtractor: withActive(keys.active),
+  });
+  const { startIndex: first = 0, endIndex: last = 0 } = virtualizer.range ?? {};
+  useEffect(() => onRange({ first: Math.max(0, first - OVERSCAN), last: last + OVERSCAN }), [first, last, onRange]);
 
-interface Props {
-  runs: readonly RunSummary[];
-  selection: Selection;
-  sorting: Sorting;
-  onSort: (sorting: Sorting) => void;
-}
-
-export function RunsTable({ runs, selection, sorting, onSort }: Props) {
-  const ids = runs.map((run) => run.id);
-  const isAll = selection.ids.length === ids.length;
+  const draw = (index: number) => {
+    const line = lines.lineAt(index);
+    const place = {
+      index,
+      measure: virtualizer.measureElement,
+      isActive: index === keys.active,
+      onFocus: () => keys.setActive(index),
+    };
+    if (line.kind === 'run') {
+      return (
+        <RunLine
+          {...place}
+          line={line}
+          columns={columns}
+          metrics={metrics}
+          isSelected={table.selection.has(line.run.id)}
+          findRun={lines.findRun}
+          onSelect={(isSelected, isRange) => table.selection.setLine(index, isSelected, isRange)}
+          onTag={table.pickTag}
+        />
+      );
+    }
+    if (line.kind === 'group') {
+      return (
+        <GroupLine
+          {...place}
+          group={line.group}
+          by={search.group ?? []}
+          spread={search.spread}
+          span={span}
+          isOpen={line.isOpen}
+          selected={table.selectedIn(line.group)}
+          onSelect={(isSelected) => table.selectGroup(line.group, isSelected)}
+          onToggle={() => table.enter(index)}
+        />
+      );
+    }
+    return (
+      <tbody ref={virtualizer.measureElement} data-index={index} className={classes.waiting}>
+        <tr aria-rowindex={index + 2}>
+          <td />
+          <td colSpan={span}>
+            {line.kind === 'more' ? (
+              <AnchorLink to="/" search={line.search} fz={12.5}>
+                Show all, {formatPlural(line.count, 'run')} more
+              </AnchorLink>
+            ) : (
+              <span className={classes.bone} aria-hidden="true" />
+            )}
+          </td>
+        </tr>
+      </tbody>
+    );
+  };
+  const widths = [...columns.map((key) => BUILT_INS[key].width), ...metrics.map(() => METRIC_WIDTH)];
   return (
-    <div className={`card ${classes.frame}`}>
-      <table className={classes.table} aria-label="Runs">
-        <thead>
-          <tr>
-            <th scope="col" className={classes.selectColumn}>
-              <label className={classes.select}>
-                <input
-                  type="checkbox"
-                  aria-label="Select all runs shown"
-                  checked={isAll}
-                  ref={(box) => {
-                    if (box) box.indeterminate = !isAll && selection.ids.length > 0;
-                  }}
-                  onChange={() => (isAll ? selection.clear() : selection.selectAll(ids))}
-                />
-              </label>
-            </th>
-            {COLUMNS.map((column) => (
-              <ColumnHead key={column.name} column={column} sorting={sorting} onSort={onSort} />
-            ))}
-          </tr>
-        </thead>
-        {runs.map((run) => (
-          <RunRows key={run.id} run={run} runs={runs} selection={selection} />
-        ))}
+    // biome-ignore lint/a11y/noStaticElementInteractions: the keys are those of the boxes inside
+    <div className={`card ${classes.frame}`} ref={frame} onKeyDown={keys.onKeyDown}>
+      <table
+        className={classes.table}
+        aria-label="Runs"
+        aria-rowcount={lines.count + 1}
+        style={{ minWidth: widths.reduce((sum, width) => sum + width, SELECT_WIDTH) }}
+      >
+        <colgroup>
+          <col style={{ width: SELECT_WIDTH }} />
+          {[...columns, ...metrics].map((key, at) => (
+            <col key={key} style={{ width: widths[at] }} />
+          ))}
+        </colgroup>
+        <TableHead
+          columns={columns}
+          metrics={metrics}
+          sorting={table.sorting}
+          onSort={table.sort}
+          allSelected={table.allSelected}
+          onSelectAll={table.selectAll}
+        />
+        <VirtualLines virtualizer={virtualizer} draw={draw} room={(height) => <Room height={height} span={span} />} />
       </table>
     </div>
   );
 }
 
-interface HeadProps {
-  column: Column;
-  sorting: Sorting;
-  onSort: (sorting: Sorting) => void;
-}
-
-function ColumnHead({ column: { name, isNumber, help, sort }, sorting, onSort }: HeadProps) {
-  if (sort === undefined) {
-    return (
-      <th scope="col" data-number={isNumber || undefined} title={help}>
-        {name}
-      </th>
-    );
-  }
-  const isSorted = sorting.sort === sort;
-  const next = isSorted ? !sorting.descending : SORT_KEYS[sort];
+function Room({ height, span }: { height: number; span: number }) {
   return (
-    <th
-      scope="col"
-      data-number={isNumber || undefined}
-      title={help}
-      aria-sort={isSorted ? (sorting.descending ? 'descending' : 'ascending') : 'none'}
-    >
-      <button
-        type="button"
-        className={classes.sort}
-        data-sorted={isSorted || undefined}
-        onClick={() => onSort({ sort, descending: next })}
-      >
-        {name}
-        <span aria-hidden="true">{isSorted ? (sorting.descending ? ' ↓' : ' ↑') : ' ↕'}</span>
-      </button>
-    </th>
-  );
-}
-
-interface RowProps {
-  run: RunSummary;
-  runs: readonly RunSummary[];
-  selection: Selection;
-}
-
-function RunRows({ run, runs, selection }: RowProps) {
-  const navigate = useNavigate();
-  const open = (event: MouseEvent<HTMLElement>): void => {
-    const isText = window.getSelection()?.isCollapsed === false;
-    if (isText || (event.target as HTMLElement).closest('a, button, label')) return;
-    void navigate({ to: '/runs/$runId', params: { runId: run.id } });
-  };
-  const { progress } = run;
-  return (
-    // A mouse may use the whole row; the keyboard uses the link in it.
-    // biome-ignore lint/a11y/useKeyWithClickEvents: the link in the row is the keyboard's way
-    <tbody className={classes.run} onClick={open} data-run={run.id} data-selected={selection.has(run.id) || undefined}>
-      <tr>
-        <td className={classes.selectColumn}>
-          <SelectBox run={run} selection={selection} />
-        </td>
-        <td>
-          <StateBadge state={run.state} wish={wishOf(run)} />
-        </td>
-        <th scope="row">
-          <AnchorLink to="/runs/$runId" params={{ runId: run.id }} fw={600} fz={13} aria-label={runTitle(run)}>
-            {run.task}
-          </AnchorLink>
-        </th>
-        <td>{run.phase}</td>
-        <td>{run.method}</td>
-        <td data-number>{run.seed}</td>
-        <td className="faint">{run.preset}</td>
-        <td className={classes.progress}>
-          <RunProgress progress={progress} state={run.state} label={`Progress of ${runTitle(run)}`} />
-        </td>
-        <td data-number>
-          <Success progress={progress} />
-        </td>
-        <td data-number>
-          <Speed run={run} />
-        </td>
-        <td data-number>{run.state === 'running' ? formatDuration(progress?.seconds_left) : NOTHING}</td>
-        <td data-number>
-          <Elapsed run={run} />
-        </td>
-        <td data-number>
-          <Launched run={run} />
-        </td>
+    <tbody aria-hidden="true">
+      <tr style={{ height }}>
+        <td colSpan={span + 1} className={classes.room} />
       </tr>
-      {hasNote(run) && (
-        <tr className={classes.note}>
-          <td />
-          <td colSpan={COLUMNS.length}>
-            <RunNote run={run} runs={runs} />
-          </td>
-        </tr>
-      )}
     </tbody>
   );
 }

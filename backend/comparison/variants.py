@@ -1,0 +1,84 @@
+"""By what runs of the same method differ: settings that their preset does not have, named as shortly as is clear."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from functools import lru_cache
+from typing import Any, cast
+
+from sldr_core.config import Phase, config_to_dict
+from sldr_core.errors import SldrError
+from sldr_core.presets import make_config
+
+IDENTITY = ("task", "phase", "method", "seed")
+"""Settings that say which run it is."""
+
+PLACES = ("compute.device", "compute.threads")
+"""Settings that say where a run is computed; runs that differ in nothing else belong together."""
+
+PRESET = "preset"
+
+Variant = tuple[tuple[str, str], ...]
+"""Settings and their values as text, sorted by name."""
+
+
+def flatten(config: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+    """Return nested settings as one level with dotted names."""
+    flat: dict[str, Any] = {}
+    for name, value in config.items():
+        if isinstance(value, Mapping):
+            flat |= flatten(cast(Mapping[str, Any], value), f"{prefix}{name}.")
+        else:
+            flat[f"{prefix}{name}"] = value
+    return flat
+
+
+def as_text(value: Any) -> str:
+    """Return a setting's value as it is typed in an override."""
+    return value if isinstance(value, str) else json.dumps(value)
+
+
+def deviations(config: Mapping[str, Any], preset: str) -> Variant:
+    """Return the settings in which a run's config is not what its preset gives for its task and method."""
+    flat = flatten(config)
+    usual = _usual(flat["task"], flat["phase"], flat["method"], preset)
+    return tuple(
+        sorted(
+            (name, as_text(value))
+            for name, value in flat.items()
+            if name not in (*IDENTITY, *PLACES) and usual.get(name, value) != value
+        )
+    )
+
+
+def distinguishing(variants: Iterable[Variant]) -> set[str]:
+    """Return the settings that not all variants share; what all share tells nothing apart."""
+    sets = [set(variant) for variant in variants]
+    if not sets:
+        return set()
+    shared = set[tuple[str, str]].intersection(*sets)
+    return {name for variant in sets for name, _ in variant - shared}
+
+
+def label(variant: Variant, names: Sequence[str]) -> str:
+    """Return a variant as words: `learning_rate 0.0003, quick`; groups are named only where `names` needs them."""
+    lasts = Counter(name.rpartition(".")[2] for name in names)
+    return ", ".join(
+        value if name == PRESET else f"{_short(name, lasts)} {value}" for name, value in variant if name in names
+    )
+
+
+def _short(name: str, lasts: Counter[str]) -> str:
+    last = name.rpartition(".")[2]
+    return last if lasts[last] == 1 else name
+
+
+@lru_cache(maxsize=1024)
+def _usual(task: str, phase: Phase, method: str, preset: str) -> dict[str, Any]:
+    """Return the flat config of a preset; nothing if this version does not know one of the names any more."""
+    try:
+        return flatten(config_to_dict(make_config(task, phase, method, 0, preset)))
+    except SldrError:
+        return {}

@@ -1,0 +1,157 @@
+"""Runs that are wanted: which existing ones serve, which have to be made, and making those in one go."""
+
+from __future__ import annotations
+
+import uuid
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from datetime import datetime
+from typing import Any
+
+from sqlalchemy import Connection, func, insert, select
+
+from backend.store.dependents import why_blocked
+from backend.store.order import last_position
+from backend.store.states import Event, RunState, append_event
+from backend.store.tables import AnyRow, run_needs, runs
+from sldr_core.config import Phase, TrainConfig, config_hash, config_to_dict, settings_hash
+from sldr_core.presets import locomotion_tasks, make_locomotion_config
+
+RUN_ID_LENGTH = 12
+"""Hex digits of a run's id."""
+
+
+@dataclass(frozen=True)
+class PlannedRun:
+    """Name one run that is wanted: an existing one that serves, or one to be made."""
+
+    config: TrainConfig
+    config_hash: str
+    preset: str
+    needs: tuple[str, ...]
+    """Config hashes of the locomotion runs in the same plan that it waits for."""
+    reused_run_id: str | None
+    """The existing run that serves, if one does."""
+
+    @property
+    def task(self) -> str:
+        """The task."""
+        return self.config.task
+
+    @property
+    def phase(self) -> Phase:
+        """The phase."""
+        return self.config.phase
+
+    @property
+    def method(self) -> str:
+        """The method."""
+        return self.config.method
+
+    @property
+    def seed(self) -> int:
+        """The seed."""
+        return self.config.seed
+
+
+def plan_runs(
+    conn: Connection, configs: Sequence[TrainConfig], preset: str, share_all: bool = False
+) -> list[PlannedRun]:
+    """Return the runs that configs stand for, in their order, behind the locomotion runs that they need.
+
+    Args:
+        configs: what is wanted, each once.
+        preset: the budget of the locomotion runs, and the name of it that every run bears.
+        share_all: whether any existing run may serve; else only locomotion runs are shared.
+    """
+    wanted = {config_hash(config): config for config in configs}
+    shareable = [digest for digest, config in wanted.items() if share_all or config.phase == "locomotion"]
+    serving = find_serving(conn, shareable)
+    # A run that is there already has what it needs, or says itself what became of that.
+    needed = {digest: _locomotion_configs(config, preset) for digest, config in wanted.items() if digest not in serving}
+    locomotion = {digest: config for of_one_run in needed.values() for digest, config in of_one_run.items()}
+    serving = find_serving(conn, [*locomotion]) | serving
+    plan = [
+        PlannedRun(config, digest, preset, needs=(), reused_run_id=serving.get(digest))
+        for digest, config in locomotion.items()
+    ]
+    for digest, config in wanted.items():
+        plan.append(PlannedRun(config, digest, preset, tuple(needed.get(digest, ())), serving.get(digest)))
+    return plan
+
+
+def find_serving(conn: Connection, digests: Sequence[str]) -> dict[str, str]:
+    """Return the oldest run that was or will be trained with each of these configs, where there is one."""
+    lost = (RunState.FAILED, RunState.CANCELLED)
+    query = (
+        select(runs.c.config_hash, func.min(runs.c.number).label("number"))
+        .where(
+            runs.c.config_hash.in_(digests),
+            runs.c.state.not_in(lost),
+            runs.c.cancel_requested.is_(False),
+            runs.c.deleted_at.is_(None),
+        )
+        .group_by(runs.c.config_hash)
+        .subquery()
+    )
+    found = conn.execute(select(runs.c.id, runs.c.config_hash).join(query, query.c.number == runs.c.number))
+    return {row.config_hash: row.id for row in found}
+
+
+def make_runs(conn: Connection, plan: Sequence[PlannedRun], at: datetime) -> dict[str, str]:
+    """Make the runs of a plan that do not exist; return the ids of all of them by their config hash, in its order."""
+    ids = {planned.config_hash: planned.reused_run_id or _new_id() for planned in plan}
+    new = [planned for planned in plan if planned.reused_run_id is None]
+    # What others need is made first, so that a needed run has the lower number.
+    _insert_runs(conn, [planned for planned in new if not planned.needs], ids, at)
+    _insert_runs(conn, [planned for planned in new if planned.needs], ids, at)
+    return ids
+
+
+def _locomotion_configs(config: TrainConfig, preset: str) -> dict[str, TrainConfig]:
+    """Return the locomotion runs that a run takes its reward from, by their hash."""
+    configs = [make_locomotion_config(config, preset, task) for task in locomotion_tasks(config)]
+    return {config_hash(config): config for config in configs}
+
+
+def _new_id() -> str:
+    return uuid.uuid4().hex[:RUN_ID_LENGTH]
+
+
+def _insert_runs(conn: Connection, new: Sequence[PlannedRun], ids: Mapping[str, str], at: datetime) -> None:
+    if not new:
+        return
+    edges = {ids[planned.config_hash]: [ids[digest] for digest in planned.needs] for planned in new}
+    needed_ids = {needed_id for of_one_run in edges.values() for needed_id in of_one_run}
+    # Locked, so that a locomotion run cannot end unseen between this look and the insert.
+    query = select(runs).where(runs.c.id.in_(needed_ids)).order_by(runs.c.number)
+    needed = conn.execute(query.with_for_update()).all()
+    rows = [_new_row(planned, ids, needed) for planned in new]
+    first = last_position(conn)
+    placed = [{**row, "queue_position": first + place, "created_at": at} for place, row in enumerate(rows)]
+    conn.execute(insert(runs), placed)
+    pairs = [{"run_id": run_id, "needs_run_id": needed_id} for run_id, own in edges.items() for needed_id in own]
+    if pairs:
+        conn.execute(insert(run_needs), pairs)
+    for row in rows:
+        append_event(conn, row["id"], Event.CREATED, row["state"], at=at, attempt=0, detail=row["reason"])
+
+
+def _new_row(planned: PlannedRun, ids: Mapping[str, str], needed: Sequence[AnyRow]) -> dict[str, Any]:
+    """Return what the table holds of a new run, but its place in the queue and the time."""
+    own = {ids[digest] for digest in planned.needs}
+    reason = why_blocked([row for row in needed if row.id in own], planned.config.sldr.gate)
+    return {
+        "id": ids[planned.config_hash],
+        "task": planned.task,
+        "phase": planned.phase,
+        "method": planned.method,
+        "seed": planned.seed,
+        "preset": planned.preset,
+        "config": config_to_dict(planned.config),
+        "config_hash": planned.config_hash,
+        "settings_hash": settings_hash(planned.config),
+        "state": RunState.QUEUED if reason is None else RunState.BLOCKED,
+        "reason": reason,
+        "needs_gpu": planned.config.compute.device == "cuda",
+    }

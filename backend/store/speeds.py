@@ -1,0 +1,97 @@
+"""How fast runs train, measured on those that have succeeded, and what that says of runs that are only planned."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from statistics import median
+from typing import Any
+
+from sqlalchemy import Connection, select
+
+from backend.store.durations import MEASURED_AT_MOST, Like, likenesses
+from backend.store.run_plans import PlannedRun
+from backend.store.states import RunState
+from backend.store.tables import attempts, run_progress, runs
+from sldr_core.config import config_to_dict
+from sldr_core.presets.budget import control_steps, gradient_updates
+
+STARTING_S = 6.0
+"""Taken for what a training does before its first cycle: mostly loading PyTorch [s]."""
+
+
+@dataclass(frozen=True)
+class Speed:
+    """Say how fast a run simulated and learnt."""
+
+    env_steps_per_s: float
+    """Control steps [1/s]."""
+    updates_per_s: float
+    """Gradient updates [1/s]."""
+
+
+@dataclass(frozen=True)
+class Speeds:
+    """Hold what was measured on succeeded runs."""
+
+    seconds_of: dict[str, list[float]] = field(default_factory=dict[str, "list[float]"])
+    """Time that runs of equal settings took, whatever their seed [s]."""
+    by_likeness: dict[Like, list[Speed]] = field(default_factory=dict[Like, "list[Speed]"])
+    """Speeds by what the runs were."""
+
+    def seconds_for(self, planned: PlannedRun) -> float | None:
+        """Return how long a run will take, or None if nothing like it has succeeded [s].
+
+        Runs that differ by nothing but the seed say it best. Without them it is the planned control steps and updates
+        at the speeds of the nearest runs; a training that may end early then takes that at most.
+        """
+        equal = self.seconds_of.get(settings_key(config_to_dict(planned.config)))
+        if equal:
+            return median(equal)
+        for likeness in likenesses(planned.task, planned.phase, planned.method, planned.preset):
+            if likeness in self.by_likeness:
+                near = self.by_likeness[likeness]
+                simulating = control_steps(planned.config) / median(speed.env_steps_per_s for speed in near)
+                learning = gradient_updates(planned.config) / median(speed.updates_per_s for speed in near)
+                return STARTING_S + simulating + learning
+        return None
+
+
+def measure_speeds(conn: Connection) -> Speeds:
+    """Measure the newest succeeded runs."""
+    newest = (
+        select(runs.c.id, runs.c.task, runs.c.phase, runs.c.method, runs.c.preset, runs.c.config)
+        .where(runs.c.state == RunState.SUCCEEDED)
+        .order_by(runs.c.number.desc())
+        .limit(MEASURED_AT_MOST)
+    )
+    found = conn.execute(newest).all()
+    ids = [row.id for row in found]
+    seconds = _training_seconds(conn, ids)
+    progress = {row.run_id: row for row in conn.execute(select(run_progress).where(run_progress.c.run_id.in_(ids)))}
+    speeds = Speeds()
+    for row in found:
+        if row.id in seconds:
+            speeds.seconds_of.setdefault(settings_key(row.config), []).append(seconds[row.id])
+        measured = progress.get(row.id)
+        if measured and measured.env_steps_per_s and measured.updates_per_s:
+            speed = Speed(measured.env_steps_per_s, measured.updates_per_s)
+            for likeness in likenesses(row.task, row.phase, row.method, row.preset):
+                speeds.by_likeness.setdefault(likeness, []).append(speed)
+    return speeds
+
+
+def _training_seconds(conn: Connection, run_ids: list[str]) -> dict[str, float]:
+    """Return the time that the attempts of runs took, whatever they waited between them [s]."""
+    query = select(attempts.c.run_id, attempts.c.started_at, attempts.c.ended_at)
+    ended = (attempts.c.run_id.in_(run_ids), attempts.c.ended_at.is_not(None))
+    seconds: dict[str, float] = {}
+    for row in conn.execute(query.where(*ended)):
+        seconds[row.run_id] = seconds.get(row.run_id, 0.0) + (row.ended_at - row.started_at).total_seconds()
+    return seconds
+
+
+def settings_key(config: Mapping[str, Any]) -> str:
+    """Return a text that is equal for configs that differ by nothing but the seed."""
+    return json.dumps({name: value for name, value in config.items() if name != "seed"}, sort_keys=True)

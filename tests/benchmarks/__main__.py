@@ -1,0 +1,91 @@
+"""`make bench`: measure each row beside its peer, print the table, and keep it with the machine it was measured on."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+from bench_learner import measure_learner
+from bench_reaching import measure_locomotion, measure_manipulation
+from bench_rows import Measured
+from bench_service import measure_service, measure_two_at_once
+from bench_simulation import measure_collecting, measure_locomotion_scenes
+from measured_page import describe_machine, write_results
+
+GROUPS: dict[str, Callable[[], Iterator[Measured]]] = {
+    "collecting": measure_collecting,
+    "locomotion-scenes": measure_locomotion_scenes,
+    "learner": measure_learner,
+    "service": measure_service,
+    "two-at-once": measure_two_at_once,
+    "locomotion": measure_locomotion,
+    "manipulation": measure_manipulation,
+}
+LONG = ("manipulation",)
+"""Groups of hours, measured only when they are named."""
+
+
+def main() -> int:
+    """Measure the groups asked for; return 1 if a target is missed."""
+    options = _parse()
+    named = options.only or [name for name in GROUPS if name not in LONG]
+    results: dict[str, list[Measured]] = {}
+    for name in named:
+        results[name] = []
+        for measured in GROUPS[name]():
+            results[name].append(measured)
+            print(_as_line(measured), flush=True)
+    _keep_json(options.json, results)
+    if options.write is not None:
+        write_results(options.write, "make bench", [_as_markdown(rows) for rows in results.values()])
+    missed = [measured for rows in results.values() for measured in rows if not measured.is_met]
+    print(f"{len(missed)} of {sum(map(len, results.values()))} rows fall short.")
+    return 1 if missed else 0
+
+
+def _parse() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="make bench", description=__doc__)
+    parser.add_argument("--only", choices=list(GROUPS), action="append", help="measure this group; may be given again")
+    parser.add_argument("--write", type=Path, metavar="PAGE", help="put the table into this page")
+    parser.add_argument("--json", type=Path, default=Path("build/bench.json"), help="where the numbers go")
+    return parser.parse_args()
+
+
+def _as_line(measured: Measured) -> str:
+    return f"{_verdict(measured):<5} {_value(measured):>10}  {measured.what} ({_target(measured)}; {measured.detail})"
+
+
+def _as_markdown(rows: list[Measured]) -> str:
+    lines = [
+        f"| {row.what} | {_target(row)} | **{_value(row)}** ({row.low:.3g} to {row.high:.3g}) | {_verdict(row)} "
+        f"| {row.detail} |"
+        for row in rows
+    ]
+    return "\n".join(["| what | target | median (range) | | detail |", "|---|---|---|---|---|", *lines])
+
+
+def _verdict(measured: Measured) -> str:
+    return "met" if measured.is_met else "SHORT"
+
+
+def _value(measured: Measured) -> str:
+    return f"{measured.value:.3g} {measured.unit}"
+
+
+def _target(measured: Measured) -> str:
+    return f"{measured.target.direction} {measured.target.value:g} {measured.unit}"
+
+
+def _keep_json(path: Path, results: dict[str, list[Measured]]) -> None:
+    """Lay the numbers beside those of groups that were not measured this time."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    known = json.loads(path.read_text())["groups"] if path.exists() else {}
+    groups = {**known, **{name: [row.as_json() for row in rows] for name, rows in results.items()}}
+    path.write_text(json.dumps({"machine": describe_machine(), "groups": groups}, indent=1) + "\n")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,105 @@
+"""Answers: how long a person waits until something has been learnt."""
+
+from __future__ import annotations
+
+import statistics
+import tempfile
+import time
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from bench_rows import Measured, Target, row
+
+from sldr_core.config import TrainConfig
+from sldr_core.presets import make_config, make_locomotion_config
+from sldr_core.records import Step
+from sldr_core.training import DirectoryRecorder, train
+
+SEEDS = (0, 1, 2)
+TESTED = 380
+"""Episodes of each test of the object."""
+
+LEARNT = 0.9
+"""Test success that counts."""
+
+
+def measure_locomotion() -> Iterator[Measured]:
+    """Train the object of FetchPush from nothing until every test episode ends at its goal."""
+    seconds, told = [], []
+    for seed in SEEDS:
+        config = make_config(
+            "FetchPush", "locomotion", "her", seed, "quick", {"loop": {"test_episodes": TESTED, "stop_at_success": 1.0}}
+        )
+        reached = _train_until(config, 1.0)
+        seconds.append(reached.seconds)
+        told.append(f"seed {seed}: {reached.best:.1%}")
+    yield row(
+        "FetchPush locomotion, from nothing to 100 % of 380 test episodes",
+        "s",
+        seconds,
+        Target("at most", 30.0),
+        ", ".join(told),
+    )
+
+
+def measure_manipulation() -> Iterator[Measured]:
+    """Train object and robot until nine of ten test episodes end at the goal, three seeds each (long)."""
+    for task, minutes in (("FetchPush", 5.0), ("FetchPickAndPlace", 25.0)):
+        waits, told = [], []
+        for seed in SEEDS:
+            reached = _reach(task, seed)
+            waits.append(reached.seconds / 60.0)
+            told.append(f"seed {seed}: best {reached.best:.1%}")
+        yield row(
+            f"{task}: minutes to 90 % test success, preset `quick`, her-sldr with its locomotion run",
+            "min",
+            waits,
+            Target("at most", minutes),
+            f"median {statistics.median(waits):.1f} min; " + ", ".join(told),
+        )
+
+
+@dataclass(frozen=True)
+class Reached:
+    """Say how long it took, and how far it came; infinitely long if it did not come there."""
+
+    seconds: float
+    best: float
+
+
+class _StopAt(DirectoryRecorder):
+    """End a training once a test has reached a success rate."""
+
+    def __init__(self, directory: Path, rate: float) -> None:
+        super().__init__(directory)
+        self._rate = rate
+        self._begun = time.perf_counter()
+        self.seconds = float("inf")
+        self.best = 0.0
+
+    def log(self, step: Step, metrics: Mapping[str, float]) -> None:
+        super().log(step, metrics)
+        rate = metrics.get("test/success_rate", 0.0)
+        self.best = max(self.best, rate)
+        if rate >= self._rate and self.seconds == float("inf"):
+            self.seconds = time.perf_counter() - self._begun
+            self.request_stop("cancel")
+
+
+def _train_until(config: TrainConfig, rate: float, models: tuple[Path, ...] = ()) -> Reached:
+    with tempfile.TemporaryDirectory() as name:
+        recorder = _StopAt(Path(name) / "run", rate)
+        train(config, recorder, models)
+        return Reached(recorder.seconds, recorder.best)
+
+
+def _reach(task: str, seed: int) -> Reached:
+    """Train the object to its end, then the robot until it has learnt; count both."""
+    config = make_config(task, "manipulation", "her-sldr", seed, "quick")
+    with tempfile.TemporaryDirectory() as name:
+        begun = time.perf_counter()
+        train(make_locomotion_config(config, "quick"), DirectoryRecorder(Path(name)))
+        object_s = time.perf_counter() - begun
+        reached = _train_until(config, LEARNT, (Path(name) / "locomotion.pt",))
+    return Reached(object_s + reached.seconds, reached.best)

@@ -1,0 +1,46 @@
+"""Keep what was measured in a page of the documentation, between two marks, with the machine it was measured on."""
+
+from __future__ import annotations
+
+import platform
+from collections.abc import Sequence
+from datetime import UTC, datetime
+from pathlib import Path
+
+END = "<!-- end of results -->"
+
+
+def begin_mark(command: str) -> str:
+    """Return the mark before the results of a command."""
+    return f"<!-- results: written by `{command}` -->"
+
+
+def write_results(page: Path, command: str, parts: Sequence[str]) -> None:
+    """Put paragraphs into a page, in place of those that the command wrote before.
+
+    Raises:
+        SystemExit: the page has no place for them.
+    """
+    text, begin = page.read_text(), begin_mark(command)
+    before, found, rest = text.partition(begin)
+    _, mark, after = rest.partition(END)
+    if not found or not mark:
+        raise SystemExit(f"{page} has no place for results; put '{begin}' and '{END}' where they belong.")
+    when = datetime.now(UTC).strftime("%Y-%m-%d")
+    told = [f"Measured on {when}: {describe_machine()}.", *parts]
+    page.write_text(before + begin + "\n\n" + "\n\n".join(told) + "\n\n" + END + after)
+
+
+def describe_machine() -> str:
+    """Return cores, processor and Python of this machine."""
+    lines = _cpu_lines()
+    model = next(
+        (line.partition(":")[2].strip() for line in lines if line.startswith("model name")), platform.machine()
+    )
+    cores = sum(line.startswith("processor") for line in lines)
+    return f"{cores} cores of {model}, Python {platform.python_version()}"
+
+
+def _cpu_lines() -> list[str]:
+    path = Path("/proc/cpuinfo")
+    return path.read_text().splitlines() if path.exists() else []

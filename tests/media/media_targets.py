@@ -1,0 +1,39 @@
+"""What drawing processes of the tests run; importable, because each is a fresh interpreter."""
+
+from __future__ import annotations
+
+import os
+import signal
+import time
+from multiprocessing.connection import Connection
+
+from worker.media.orders import Drawn, DrawOrder, NotDrawn
+
+CONTENT = b"a picture"
+
+
+def write_words(host: Connection, host_pid: int) -> None:
+    """Write a few bytes instead of a picture."""
+    while True:
+        order: DrawOrder = host.recv()
+        order.target.parent.mkdir(parents=True, exist_ok=True)
+        order.target.write_bytes(CONTENT)
+        host.send(Drawn(len(CONTENT), "c" * 64))
+
+
+def die_of_it(host: Connection, host_pid: int) -> None:
+    """End without a word, as a driver that crashes does."""
+    host.recv()
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+def see_nothing(host: Connection, host_pid: int) -> None:
+    """Be a machine without EGL."""
+    host.recv()
+    host.send(NotDrawn("MuJoCo cannot draw off screen here.", is_machine=True))
+    time.sleep(60.0)
+
+
+def never_answer(host: Connection, host_pid: int) -> None:
+    """Hang, as a renderer does that waits for its driver."""
+    time.sleep(60.0)

@@ -1,0 +1,253 @@
+"""A study makes what nothing serves yet, and nothing twice, however often and by whomever it is asked for."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+
+import pytest
+from store_cases import at_once, order
+from study_cases import cell_of, small_spec, train_next
+
+from backend.store.actions import Action, act, request_cancel
+from backend.store.database import Database
+from backend.store.errors import NotFound, Refused
+from backend.store.launches import launch
+from backend.store.outcomes import Failed, Succeeded
+from backend.store.runs import RunFilter, get_run, list_runs
+from backend.store.states import RunState
+from backend.store.studies.launch import (
+    Launched,
+    create_study,
+    delete_study,
+    extend_study,
+    fill_study,
+    preview_study,
+    rename_study,
+    restore_study,
+)
+from backend.store.studies.matrix import get_study, list_studies, study_run_ids
+from backend.store.studies.plan import Standing
+from backend.store.studies.retry import retry_study
+from backend.store.studies.spec import Addition, Variant
+from sldr_core.errors import InvalidConfig
+
+DIVERGED = Failed("The numbers diverged.", retry=False)
+
+
+def run_count(db: Database) -> int:
+    return list_runs(db, RunFilter(), 1).total
+
+
+def made(db: Database, name: str = "first", **changes) -> str:
+    return create_study(db, name, small_spec(**changes)).study_id
+
+
+def test_a_study_makes_every_combination_and_one_shared_locomotion_run(db: Database) -> None:
+    launched = create_study(db, "both", small_spec(tasks=("FetchPush", "FetchSlide")))
+
+    rows = list_runs(db, RunFilter(), 100).rows
+    assert launched.queued == len(rows) == 2 * 2 * 2 + 2
+    assert {(row.task, row.method, row.seed) for row in rows if row.phase == "manipulation"} == {
+        (task, method, seed)
+        for task in ("FetchPush", "FetchSlide")
+        for method in ("her", "her-sldr")
+        for seed in (0, 1)
+    }
+    assert sorted(row.task for row in rows if row.phase == "locomotion") == ["FetchPush", "FetchSlide"]
+
+
+def test_a_preview_says_what_is_then_done_and_does_nothing(db: Database) -> None:
+    plan = preview_study(db, small_spec())
+
+    assert [planned.standing for planned in plan.places] == 4 * [Standing.NEW]
+    assert [run.phase for run in plan.new_runs].count("locomotion") == 1
+    assert run_count(db) == 0
+    assert create_study(db, "first", small_spec()).queued == len(plan.new_runs) == run_count(db)
+
+
+def test_the_same_study_again_queues_nothing_and_joins_everything(db: Database) -> None:
+    first = made(db)
+    again = create_study(db, "second", small_spec())
+
+    assert (again.queued, again.joined) == (0, 4)
+    assert study_run_ids(db, again.study_id) == study_run_ids(db, first)
+    assert run_count(db) == 5
+
+
+def test_a_run_that_was_launched_alone_is_joined_and_the_preview_says_so(db: Database) -> None:
+    (alone,) = launch(db, order("her", seeds=(1,)))
+
+    plan = preview_study(db, small_spec())
+
+    assert [(planned.place.seed, planned.run_id) for planned in plan.places if planned.standing is Standing.JOINED] == [
+        (1, alone)
+    ]
+    assert cell_of(db, made(db), "her").runs[1].run_id == alone
+
+
+def test_the_locomotion_run_of_an_earlier_launch_is_shared(db: Database) -> None:
+    locomotion, _ = launch(db, order("her-sldr", seeds=(7,)))
+
+    (planned,) = preview_study(db, small_spec()).locomotion
+
+    assert planned.reused_run_id == locomotion
+
+
+def test_a_failed_run_serves_no_new_study(db: Database) -> None:
+    (failed,) = launch(db, order("her", seeds=(0,)))
+    train_next(db, DIVERGED)
+
+    assert failed not in study_run_ids(db, made(db))
+
+
+def test_two_launches_of_one_study_at_once_make_every_run_once(db: Database) -> None:
+    results = at_once(*[partial(create_study, db, f"study {number}", small_spec()) for number in range(3)])
+
+    queued = sorted(result.queued for result in results if isinstance(result, Launched))
+    assert queued == [0, 0, 5]
+    assert run_count(db) == 5
+
+
+def test_a_name_is_taken_once(db: Database) -> None:
+    made(db, "taken")
+
+    with pytest.raises(Refused, match="called 'taken' already; choose another name"):
+        made(db, " taken ")
+    assert len(list_studies(db, 10)) == 1
+
+
+def test_filling_finds_nothing_to_do_until_a_run_is_deleted(db: Database) -> None:
+    study = made(db)
+    assert fill_study(db, study).queued == 0
+    deleted = cell_of(db, study, "her").runs[0].run_id
+    act(db, Action.DELETE, deleted)
+    assert cell_of(db, study, "her").missing_seeds == (0,)
+
+    assert fill_study(db, study).queued == 1
+
+    assert cell_of(db, study, "her").missing_seeds == ()
+    assert deleted not in study_run_ids(db, study)
+    assert fill_study(db, study).queued == 0
+
+
+def test_adding_a_seed_makes_only_that_seed(db: Database) -> None:
+    study = made(db)
+    before = set(study_run_ids(db, study))
+
+    assert extend_study(db, study, Addition(seeds=(2,))).queued == 2
+
+    added = set(study_run_ids(db, study)) - before
+    assert {get_run(db, run_id).seed for run_id in added} == {2}
+    assert [len(cell.runs) for cell in get_study(db, study).cells] == [3, 3]
+
+
+def test_a_longer_axis_can_be_previewed_for_the_study_it_is_for(db: Database) -> None:
+    study = made(db)
+
+    plan = preview_study(db, small_spec(methods=("her", "her-sldr", "ddpg")), study)
+
+    standings = [planned.standing for planned in plan.places]
+    assert standings == [Standing.IN_STUDY] * 4 + [Standing.NEW] * 2
+
+
+def test_adding_what_is_there_is_refused(db: Database) -> None:
+    study = made(db)
+
+    with pytest.raises(InvalidConfig, match="has all of that already"):
+        extend_study(db, study, Addition(seeds=(1,), methods=("her",)))
+
+
+def test_failed_runs_and_the_locomotion_run_they_need_are_tried_again(db: Database) -> None:
+    study = made(db, methods=("her-sldr",), seeds=(0,))
+    locomotion = train_next(db, DIVERGED)
+
+    results = retry_study(db, study)
+
+    assert [(result.run_id, result.done) for result in results] == [(locomotion, True)]
+    assert get_run(db, locomotion).state is RunState.QUEUED
+    assert retry_study(db, study) == []
+
+
+def test_cancelled_runs_are_left_alone_unless_they_are_meant(db: Database) -> None:
+    study = made(db, methods=("her",), seeds=(0,))
+    (cancelled,) = study_run_ids(db, study)
+    request_cancel(db, cancelled)
+
+    assert retry_study(db, study) == []
+    assert [result.run_id for result in retry_study(db, study, cancelled=True)] == [cancelled]
+
+
+def test_a_deleted_study_keeps_its_runs_and_comes_back(db: Database) -> None:
+    study = made(db)
+    delete_study(db, study)
+
+    assert [row.id for row in list_studies(db, 10)] == []
+    assert [row.id for row in list_studies(db, 10, deleted=True)] == [study]
+    assert run_count(db) == 5
+    for change in (fill_study, retry_study, delete_study):
+        with pytest.raises(Refused, match="is deleted; restore it first"):
+            change(db, study)
+    restore_study(db, study)
+    assert [row.id for row in list_studies(db, 10)] == [study]
+    with pytest.raises(Refused, match="is not deleted"):
+        restore_study(db, study)
+
+
+def test_a_study_whose_name_was_taken_meanwhile_does_not_come_back(db: Database) -> None:
+    study = made(db, "name")
+    delete_study(db, study)
+    made(db, "name")
+
+    with pytest.raises(Refused, match="choose another name"):
+        restore_study(db, study)
+
+
+def test_a_study_gets_another_name_and_note(db: Database) -> None:
+    study = made(db)
+    rename_study(db, study, name="better")
+    rename_study(db, study, note="What it shows.\n<script>")
+
+    row = get_study(db, study).study
+    assert (row.name, row.note) == ("better", "What it shows.\n<script>")
+    rename_study(db, study, name="better")
+
+
+def test_a_study_that_does_not_exist_is_named(db: Database) -> None:
+    for change in (fill_study, retry_study, delete_study, restore_study, study_run_ids, get_study):
+        with pytest.raises(NotFound, match="There is no study 'nope'"):
+            change(db, "nope")
+
+
+def test_what_a_refused_study_would_have_made_is_not_made(db: Database) -> None:
+    spec = small_spec(variants=(Variant("a", {}), Variant("b", {"loop": {"batch_size": -1}})))
+
+    with pytest.raises(InvalidConfig, match=r"loop.batch_size.*for FetchPush, her, b"):
+        create_study(db, "bad", spec)
+    assert (run_count(db), list_studies(db, 10)) == (0, [])
+
+
+def test_variants_are_cells_of_their_own(db: Database) -> None:
+    variants = (Variant("0.9", {"agent": {"gamma": 0.9}}), Variant("0.95", {"agent": {"gamma": 0.95}}))
+    study = create_study(db, "axis", replace(small_spec(), methods=("her",), variants=variants)).study_id
+
+    cells = get_study(db, study).cells
+    gammas = {cell.cell.variant: get_run(db, cell.runs[0].run_id).config["agent"]["gamma"] for cell in cells}
+    assert gammas == {"0.9": 0.9, "0.95": 0.95}
+
+
+def test_the_matrix_tells_states_progress_and_the_median_of_the_best_tests(db: Database) -> None:
+    study = made(db, methods=("her",), seeds=(0, 1, 2, 3))
+    train_next(db, Succeeded(0.5), best=0.75, fraction=0.9)
+    train_next(db, Succeeded(0.25), best=0.25)
+    train_next(db, DIVERGED, fraction=0.5)
+
+    matrix = get_study(db, study)
+    (cell,) = matrix.cells
+    assert dict(cell.states) == {RunState.SUCCEEDED: 2, RunState.FAILED: 1, RunState.QUEUED: 1}
+    assert cell.best_success_rate == pytest.approx((0.75 + 0.25) / 2)
+    assert cell.tested == 2
+    assert cell.progress == pytest.approx((1.0 + 1.0 + 0.5 + 0.0) / 4)
+    assert matrix.study.progress == pytest.approx(cell.progress)
+    assert dict(matrix.study.states) == dict(cell.states)
+    assert list_studies(db, 1)[0].progress == pytest.approx(cell.progress)

@@ -1,0 +1,100 @@
+import { screen, waitFor, within } from '@testing-library/react';
+import { beforeEach, expect, test } from 'vitest';
+import { DONE, type FakeServer, problem } from '@/testing/fake-server';
+import { openPage, startServer } from '@/testing/open-page';
+import { STUDY, TEMPLATE } from '@/testing/samples';
+
+const PATH = '/api/studies/study-1';
+const OUTCOME = { study_id: 'study-1', queued: 1, joined: 0 };
+
+let server: FakeServer;
+beforeEach(() => {
+  server = startServer()
+    .on('GET /api/studies', () => ({ body: { studies: [STUDY] } }))
+    .on(`GET ${PATH}`, () => ({ body: STUDY }))
+    .on('POST /api/studies', () => ({ status: 201, body: OUTCOME }));
+});
+
+test('without studies, the page says what to do and offers two minutes', async () => {
+  server.on('GET /api/studies', () => ({ body: { studies: [] } }));
+  const { user, router } = openPage('/studies');
+  expect(await screen.findByRole('link', { name: 'Choose what to compare' })).toBeTruthy();
+  await user.click(await screen.findByRole('button', { name: 'Launch a two-minute study' }));
+  await waitFor(() => expect(router.state.location.pathname).toBe('/studies/study-1'));
+  expect(server.bodiesOf('POST', '/api/studies')).toEqual([
+    { name: TEMPLATE.title, note: TEMPLATE.summary, spec: TEMPLATE.spec },
+  ]);
+});
+
+test('without runs, the runs page offers the same', async () => {
+  server.on('POST /api/studies', () => problem(409, null, 'There is a study called so already.'));
+  const { user } = openPage('/');
+  await user.click(await screen.findByRole('button', { name: 'Launch a two-minute study' }));
+  expect(await screen.findByText('There is a study called so already.')).toBeTruthy();
+});
+
+test('a row says what is compared and how far it is', async () => {
+  openPage('/studies');
+  const link = await screen.findByRole('link', { name: 'Push' });
+  expect(link.getAttribute('href')).toBe('/studies/study-1');
+  expect(screen.getByText('1 task × 2 methods × 2 seeds · preset quick')).toBeTruthy();
+  expect(screen.getByRole('progressbar', { name: 'Progress of Push' }).getAttribute('aria-valuenow')).toBe('60');
+});
+
+test('the matrix shows the median, the states and the missing seeds of each cell', async () => {
+  openPage('/studies/study-1');
+  const her = await screen.findByRole('button', { name: /^FetchPush, her:/ });
+  expect(within(her).getByText(/^80\s%$/)).toBeTruthy();
+  expect(within(her).getByText('2 of 2')).toBeTruthy();
+  const sldr = screen.getByRole('button', { name: /^FetchPush, her-sldr:/ });
+  expect(within(sldr).getByText('missing: seed 1')).toBeTruthy();
+  expect(within(sldr).getByTitle('1 failed')).toBeTruthy();
+});
+
+test('a cell opens its runs, and the address keeps it open', async () => {
+  const { user, router } = openPage('/studies/study-1');
+  await user.click(await screen.findByRole('button', { name: /^FetchPush, her-sldr:/ }));
+  const runs = await screen.findByRole('region', { name: 'Runs of FetchPush, her-sldr' });
+  expect(within(runs).getByRole('link', { name: 'Seed 0' }).getAttribute('href')).toBe('/runs/run-3');
+  expect(within(runs).getByText('The loss became NaN.')).toBeTruthy();
+  expect(router.state.location.search).toEqual({ task: 'FetchPush', method: 'her-sldr' });
+});
+
+test('what is missing is filled, what failed is tried again, and the page says what was done', async () => {
+  server
+    .on(`POST ${PATH}/fill`, () => ({ body: OUTCOME }))
+    .on(`POST ${PATH}/retry`, () => ({
+      body: { results: [{ run_id: 'run-3', done: true, message: 'It is queued.' }] },
+    }));
+  const { user } = openPage('/studies/study-1');
+  await user.click(await screen.findByRole('button', { name: 'Fill 1 missing' }));
+  expect(await screen.findByText('1 queued, 0 reused.')).toBeTruthy();
+  await user.click(screen.getByRole('button', { name: 'Retry 1 failed' }));
+  expect(await screen.findByText('1 of 1 are tried again.')).toBeTruthy();
+  expect(server.bodiesOf('POST', `${PATH}/retry`)).toEqual([{ cancelled: false }]);
+});
+
+test('a deleted study can be had back at once', async () => {
+  server.on(`DELETE ${PATH}`, () => DONE).on(`POST ${PATH}/restore`, () => DONE);
+  const { user } = openPage('/studies/study-1');
+  await user.click(await screen.findByRole('button', { name: 'Delete' }));
+  await user.click(await screen.findByRole('button', { name: 'Undo' }));
+  await waitFor(() => expect(server.bodiesOf('POST', `${PATH}/restore`)).toHaveLength(1));
+});
+
+test('a study gets another name', async () => {
+  server.on(`PATCH ${PATH}`, () => DONE);
+  const { user } = openPage('/studies/study-1');
+  await user.click(await screen.findByRole('button', { name: 'Edit' }));
+  const name = await screen.findByRole('textbox', { name: 'Name' });
+  await user.clear(name);
+  await user.type(name, 'Better');
+  await user.click(screen.getByRole('button', { name: 'Save' }));
+  await waitFor(() => expect(server.bodiesOf('PATCH', PATH)).toEqual([{ name: 'Better', note: 'What it is for.' }]));
+});
+
+test('a study that does not exist gets one clear sentence', async () => {
+  server.on('GET /api/studies/nope', () => problem(404, null, "There is no study 'nope'."));
+  openPage('/studies/nope');
+  expect(await screen.findByText("There is no study 'nope'.")).toBeTruthy();
+});

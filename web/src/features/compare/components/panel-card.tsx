@@ -1,0 +1,98 @@
+/** One task: the curves of its methods, what they are, and the table behind them. */
+import { ActionIcon } from '@mantine/core';
+import { memo, useCallback, useMemo, useState } from 'react';
+import type { Panel } from '@/client/schema.gen';
+import { CurveChart } from '@/components/curve-chart';
+import { Icon } from '@/components/icon';
+import { AXIS_NAMES, formatX, xSteps } from '@/lib/axes';
+import type { Curve } from '@/lib/curves';
+import { useGrowing } from '@/lib/use-growing';
+import { useSeen } from '@/lib/use-seen';
+import { panelCurves, panelLegend, yExtent } from '../panels';
+import { formatTick, type PanelView } from '../view';
+import { CurveTable } from './curve-table';
+import classes from './panels.module.css';
+import { describeReadings, Readout } from './readout';
+
+interface Props {
+  panel: Panel;
+  view: PanelView;
+  height: number;
+  isTable: boolean;
+  onTable: (task: string) => void;
+}
+
+export const PanelCard = memo(function PanelCard({ panel, view, height, isTable, onTable }: Props) {
+  const { groups, weight, scheme, metricName, axis } = view;
+  const [figure, isSeen] = useSeen<HTMLElement>();
+  const curves = useMemo(() => panelCurves(panel, groups, weight, scheme), [panel, groups, weight, scheme]);
+  const hasPoints = curves.some(({ x, seeds }) => x.length > 0 || seeds.some((seed) => seed.x.length > 0));
+  return (
+    <figure ref={figure} className={`card ${classes.panel}`} aria-label={panel.task}>
+      <figcaption className={classes.caption}>
+        <div className={classes.title}>
+          <h3>{panel.task}</h3>
+          <span className="faint">{panelLegend(panel, groups)}</span>
+        </div>
+        <ActionIcon
+          variant={isTable ? 'light' : 'subtle'}
+          color="gray"
+          size="sm"
+          onClick={() => onTable(panel.task)}
+          aria-pressed={isTable}
+          aria-label={`${panel.task} as a table`}
+        >
+          <Icon name="table" size={14} />
+        </ActionIcon>
+      </figcaption>
+      {!hasPoints && (
+        <p className={`faint ${classes.empty}`} style={{ minHeight: height }}>
+          No run of {panel.task} has logged {metricName.toLowerCase()} over {AXIS_NAMES[axis].toLowerCase()} yet.
+        </p>
+      )}
+      {hasPoints && isTable && <CurveTable panel={panel} curves={curves} view={view} height={height} />}
+      {hasPoints && !isTable && (
+        <div className={classes.plot} style={{ height }}>
+          {isSeen && <Curves task={panel.task} curves={curves} view={view} height={height} />}
+        </div>
+      )}
+    </figure>
+  );
+});
+
+interface CurvesProps {
+  task: string;
+  curves: readonly Curve[];
+  view: PanelView;
+  height: number;
+}
+
+function Curves({ task, curves, view, height }: CurvesProps) {
+  const { axis, isShare, isLogX, isLogY, range, metric, metricName } = view;
+  const [place, setPlace] = useState<number | null>(null);
+  const extent = useMemo(() => yExtent(curves, range, isShare, isLogY), [curves, range, isShare, isLogY]);
+  const look = [metric, axis, isLogY, view.weight, range[0], view.range === view.whole ? '' : range[1]].join('\n');
+  const yRange = useGrowing(extent, look) ?? [0, 1];
+  const showX = useCallback((value: number) => formatX(axis, value), [axis]);
+  const showY = useCallback((value: number) => formatTick(isShare, value), [isShare]);
+  return (
+    <>
+      <CurveChart
+        {...view}
+        curves={curves}
+        height={height}
+        isSmoothed={view.weight > 0}
+        isLogX={isLogX}
+        isLogY={isLogY}
+        yRange={yRange}
+        xSteps={xSteps(axis)}
+        formatX={showX}
+        formatY={showY}
+        onPoint={(next, isHere) => setPlace(isHere ? next : null)}
+        description={`${task}: ${metricName.toLowerCase()} over ${AXIS_NAMES[axis].toLowerCase()}`}
+        describePlace={(at) => describeReadings(curves, at, view)}
+      />
+      {place !== null && <Readout curves={curves} place={place} view={view} />}
+    </>
+  );
+}

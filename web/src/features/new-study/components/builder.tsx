@@ -1,0 +1,84 @@
+/** The form of a new study: choices, settings, the matrix of what would run, and the button. */
+import { getRouteApi } from '@tanstack/react-router';
+import type { Choices, StudyTemplate } from '@/client/schema.gen';
+import { ChoiceCards } from '@/components/choice-cards';
+import { useLaunchStudy } from '@/lib/use-launch-study';
+import { type Draft, draftOf, useDraft } from '../use-draft';
+import classes from './builder.module.css';
+import { LaunchPanel } from './launch-panel';
+import { NameChecks } from './name-checks';
+import { PreviewMatrix } from './preview-matrix';
+import { SeedField } from './seed-field';
+import { SettingRows } from './setting-rows';
+import { Templates } from './templates';
+
+interface Props {
+  choices: Choices;
+  templates: readonly StudyTemplate[];
+  begin: Draft;
+}
+
+const route = getRouteApi('/studies/new');
+
+export function Builder({ choices, templates, begin }: Props) {
+  const form = useDraft(begin, choices);
+  const { draft, problems } = form;
+  const launching = useLaunchStudy();
+  const navigate = route.useNavigate();
+  const choose = (changes: Partial<Draft>): void => {
+    launching.reset();
+    form.choose(changes);
+  };
+  const submit = (): void => {
+    if (form.spec === null) return;
+    launching.mutate(
+      { name: form.name, note: '', spec: form.spec },
+      { onSuccess: ({ study_id }) => void navigate({ to: '/studies/$studyId', params: { studyId: study_id } }) },
+    );
+  };
+  return (
+    <form
+      className={classes.form}
+      aria-label="New study"
+      noValidate
+      onSubmit={(event) => {
+        event.preventDefault();
+        submit();
+      }}
+    >
+      <div className={classes.fields}>
+        <Templates templates={templates} onChoose={({ title, spec }) => choose(draftOf(spec, title))} />
+        <NameChecks
+          legend="Tasks"
+          known={choices.tasks.map(({ name, goal_text }) => ({ name, summary: goal_text }))}
+          chosen={draft.tasks}
+          problem={problems.tasks}
+          onChange={(tasks) => choose({ tasks })}
+        />
+        <NameChecks
+          legend="Methods"
+          known={choices.methods}
+          chosen={draft.methods}
+          problem={problems.methods}
+          onChange={(methods) => choose({ methods })}
+        />
+        <SeedField seeds={draft.seeds} problem={problems.seeds} onChange={(seeds) => choose({ seeds })} />
+        <ChoiceCards
+          legend="Preset"
+          width={200}
+          value={draft.preset}
+          onChange={(preset) => choose({ preset })}
+          cards={choices.presets.map(({ name, summary }) => ({ value: name, title: name, summary }))}
+        />
+        <SettingRows form={form} onChange={choose} />
+        {form.spec && form.preview && <PreviewMatrix spec={form.spec} preview={form.preview} />}
+      </div>
+      <LaunchPanel
+        form={form}
+        refusal={launching.error}
+        isLaunching={launching.isPending}
+        onName={(name) => choose({ name })}
+      />
+    </form>
+  );
+}

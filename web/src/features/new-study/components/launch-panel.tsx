@@ -1,0 +1,63 @@
+/** What this study would queue, reuse and cost; its name; and the button that launches it. */
+import { Button, TextInput } from '@mantine/core';
+import { PreviewSums } from '@/components/preview-sums';
+import { Refused, sentence } from '@/lib/api';
+import { formatPlural } from '@/lib/format';
+import type { StudyDraft } from '../use-draft';
+import classes from './builder.module.css';
+
+interface Props {
+  form: StudyDraft;
+  /** Why the launch was refused. */
+  refusal: Error | null;
+  isLaunching: boolean;
+  onName: (name: string) => void;
+}
+
+export function LaunchPanel({ form, refusal, isLaunching, onName }: Props) {
+  const { preview, isPreviewing, problems } = form;
+  const marked = [problems.tasks, problems.methods, problems.seeds, ...Object.values(problems.rows)].filter(Boolean);
+  const refused = [form.refusal, refusal].flatMap(sentencesOf);
+  return (
+    <aside className={`card ${classes.panel}`} aria-label="What will be queued">
+      <TextInput
+        label="Name"
+        maxLength={80}
+        placeholder={form.name}
+        value={form.draft.name}
+        onChange={(event) => onName(event.currentTarget.value)}
+      />
+      <div aria-live="polite" className={classes.panelBody} data-previewing={isPreviewing || undefined}>
+        {preview ? <PreviewSums preview={preview} /> : refused.length === 0 && <Waiting marked={marked.length} />}
+        {refused.map((text) => (
+          <p key={text} className="problem" role="alert">
+            {text}
+          </p>
+        ))}
+      </div>
+      <Button
+        type="submit"
+        fullWidth
+        size="md"
+        loading={isLaunching}
+        disabled={form.spec === null || preview === undefined || isPreviewing}
+      >
+        {preview === undefined
+          ? 'Launch the study'
+          : preview.queued === 0
+            ? 'Gather what exists'
+            : `Launch ${formatPlural(preview.queued, 'run')}`}
+      </Button>
+    </aside>
+  );
+}
+
+function Waiting({ marked }: { marked: number }) {
+  return <p className="faint">{marked > 0 ? 'Mend the marked fields first.' : 'Looking…'}</p>;
+}
+
+function sentencesOf(error: Error | null): string[] {
+  if (error === null) return [];
+  if (!(error instanceof Refused)) return [sentence(error)];
+  return error.problems.map(({ field, message }) => (field ? `${field}: ${message}` : message));
+}

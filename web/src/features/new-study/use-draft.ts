@@ -1,0 +1,104 @@
+/** The study that is being put together: what was chosen, what it adds up to, and what launching it would do. */
+import { useDebouncedValue } from '@mantine/hooks';
+import { useQuery } from '@tanstack/react-query';
+import { useMemo, useState } from 'react';
+import type { Choices, StudySpec } from '@/client/schema.gen';
+import { parseSeeds } from '@/lib/seeds';
+import { readSettingGroups } from '@/lib/settings';
+import { describeAxes } from '@/lib/studies';
+import { previewQuery } from '@/lib/study-preview';
+import { readRows, rowsOf, type SettingRow } from './setting-rows';
+
+/** Rest after the last change before the preview is asked for [ms]. */
+const REST_MS = 250;
+
+/** What a person chose. */
+export interface Draft {
+  /** Left empty, the study is named after what it compares. */
+  readonly name: string;
+  readonly tasks: readonly string[];
+  readonly methods: readonly string[];
+  readonly seeds: string;
+  readonly preset: string;
+  readonly rows: readonly SettingRow[];
+  /** Variants that came with a template or a cloned study and that no row can say. */
+  readonly variants: StudySpec['variants'];
+}
+
+/** The draft that says the same as a spec. */
+export function draftOf(spec: StudySpec, name = ''): Draft {
+  return {
+    ...rowsOf(spec),
+    name,
+    tasks: spec.tasks,
+    methods: spec.methods,
+    seeds: seedText(spec.seeds),
+    preset: spec.preset,
+  };
+}
+
+export function useDraft(begin: Draft, choices: Choices) {
+  const [draft, setDraft] = useState(begin);
+  const groups = useMemo(() => readSettingGroups(choices.config_schema), [choices.config_schema]);
+  const settings = readRows(groups, draft.rows);
+  const seeds = readSeeds(draft.seeds);
+  const problems = {
+    tasks: draft.tasks.length === 0 ? 'Choose at least one task.' : undefined,
+    methods: draft.methods.length === 0 ? 'Choose at least one method.' : undefined,
+    seeds: seeds.problem,
+    rows: settings.problems,
+  };
+  const isWhole = !problems.tasks && !problems.methods && !problems.seeds && Object.keys(problems.rows).length === 0;
+  const spec: StudySpec | null = isWhole
+    ? {
+        tasks: inOrder(draft.tasks, choices.tasks),
+        methods: inOrder(draft.methods, choices.methods),
+        seeds: seeds.seeds,
+        preset: draft.preset,
+        overrides: settings.overrides,
+        variants: settings.variants.length > 0 ? settings.variants : (draft.variants ?? []),
+      }
+    : null;
+  // The preview belongs to the study that rested, so a hasty click never launches what was not shown.
+  const [resting] = useDebouncedValue(JSON.stringify(spec), REST_MS);
+  const preview = useQuery(previewQuery(useMemo(() => JSON.parse(resting) as StudySpec | null, [resting])));
+  const isResting = resting === JSON.stringify(spec);
+  return {
+    draft,
+    choose: (changes: Partial<Draft>) => setDraft((old) => ({ ...old, ...changes })),
+    groups,
+    problems,
+    spec,
+    name: draft.name.trim() || (spec ? nameOf(spec) : ''),
+    preview: spec !== null && !preview.isError ? preview.data : undefined,
+    refusal: spec === null ? null : preview.error,
+    isPreviewing: !isResting || preview.isPlaceholderData || preview.isFetching,
+  };
+}
+
+export type StudyDraft = ReturnType<typeof useDraft>;
+
+/** What a study is called after what it compares. */
+function nameOf(spec: StudySpec): string {
+  const words = `${spec.tasks.join(', ')}: ${spec.methods.join(', ')}`;
+  return words.length <= 60 ? words : describeAxes(spec);
+}
+
+/** Names in the order in which they are shown, whatever order they were chosen in. */
+function inOrder(names: readonly string[], known: readonly { name: string }[]): string[] {
+  return known.map(({ name }) => name).filter((name) => names.includes(name));
+}
+
+function readSeeds(text: string): { seeds: number[]; problem?: string } {
+  try {
+    return { seeds: parseSeeds(text) };
+  } catch (error) {
+    return { seeds: [], problem: (error as Error).message };
+  }
+}
+
+function seedText(seeds: readonly number[]): string {
+  const first = Math.min(...seeds);
+  const isRange = seeds.length > 1 && seeds.every((seed, place) => seed === first + place);
+  return isRange ? `${first}-${first + seeds.length - 1}` : seeds.join(', ');
+}

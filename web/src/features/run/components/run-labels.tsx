@@ -1,0 +1,98 @@
+/** What people wrote on a run: its tags and its notes, and the fields to change them. */
+import { Button, Group, Textarea } from '@mantine/core';
+import { type ReactNode, useState } from 'react';
+import type { RunDetail } from '@/client/schema.gen';
+import { TagChips } from '@/components/tag-chips';
+import { TagField } from '@/components/tag-field';
+import { useToast } from '@/components/toasts';
+import { sentence } from '@/lib/api';
+import { LONGEST_NOTES, useChangeTags, useSetNotes } from '@/lib/labels';
+import classes from './run-labels.module.css';
+
+export function RunLabels({ run }: { run: RunDetail }) {
+  const [edited, setEdited] = useState<'tags' | 'notes' | null>(null);
+  const close = (): void => setEdited(null);
+  if (edited === 'tags') return <TagsForm run={run} onDone={close} />;
+  if (edited === 'notes') return <NotesForm run={run} onDone={close} />;
+  return (
+    <div className={classes.labels}>
+      <TagChips tags={run.tags} />
+      <Button variant="subtle" size="compact-xs" onClick={() => setEdited('tags')}>
+        {run.tags.length > 0 ? 'Edit tags' : 'Add tags'}
+      </Button>
+      <Button variant="subtle" size="compact-xs" onClick={() => setEdited('notes')}>
+        {run.notes === '' ? 'Add notes' : 'Edit notes'}
+      </Button>
+      {run.notes !== '' && <p className={classes.notes}>{run.notes}</p>}
+    </div>
+  );
+}
+
+interface FormProps {
+  run: RunDetail;
+  onDone: () => void;
+}
+
+function TagsForm({ run, onDone }: FormProps) {
+  const [tags, setTags] = useState<string[]>(run.tags);
+  const changing = useChangeTags();
+  const wish = {
+    runIds: [run.id],
+    add: tags.filter((tag) => !run.tags.includes(tag)),
+    remove: run.tags.filter((tag) => !tags.includes(tag)),
+  };
+  return (
+    <Form isBusy={changing.isPending} save={() => changing.mutateAsync(wish)} onDone={onDone}>
+      <TagField label="Tags" value={tags} onChange={setTags} placeholder="Type, then Enter" />
+    </Form>
+  );
+}
+
+function NotesForm({ run, onDone }: FormProps) {
+  const [notes, setNotes] = useState(run.notes);
+  const setting = useSetNotes(run.id);
+  return (
+    <Form isBusy={setting.isPending} save={() => setting.mutateAsync(notes)} onDone={onDone}>
+      <Textarea
+        size="xs"
+        label="Notes, as plain text"
+        autosize
+        minRows={3}
+        maxRows={14}
+        maxLength={LONGEST_NOTES}
+        value={notes}
+        onChange={(event) => setNotes(event.currentTarget.value)}
+      />
+    </Form>
+  );
+}
+
+interface FrameProps {
+  isBusy: boolean;
+  save: () => Promise<void>;
+  onDone: () => void;
+  children: ReactNode;
+}
+
+function Form({ isBusy, save, onDone, children }: FrameProps) {
+  const toast = useToast();
+  return (
+    <form
+      className={classes.form}
+      onSubmit={(event) => {
+        event.preventDefault();
+        save().then(onDone, (error: unknown) => toast({ text: sentence(error), isProblem: true }));
+      }}
+    >
+      {children}
+      <Group gap="xs">
+        <Button type="submit" size="xs" loading={isBusy}>
+          Save
+        </Button>
+        <Button variant="default" size="xs" onClick={onDone}>
+          Keep as it was
+        </Button>
+      </Group>
+    </form>
+  );
+}

@@ -1,0 +1,40 @@
+/** The recorded episodes of a run, and what happened in one of them. */
+import { keepPreviousData, queryOptions } from '@tanstack/react-query';
+import { client, unwrap } from '@/lib/api';
+import { SLOW_POLL_MS } from '@/lib/queries';
+import type { EpisodePlace, EpisodeSorting } from './place';
+import type { Tag } from './tags';
+
+/** Rows that a press on "more" adds. */
+export const PAGE_ROWS = 50;
+
+interface Wanted extends EpisodeSorting {
+  readonly tag?: Tag;
+  readonly epoch?: number;
+  /** How many rows from the first on. */
+  readonly limit: number;
+}
+
+export function episodesQuery(runId: string, wanted: Wanted, isLive: boolean) {
+  return queryOptions({
+    queryKey: ['runs', 'episodes', runId, wanted],
+    queryFn: ({ signal }) =>
+      unwrap(client.GET('/api/runs/{run_id}/episodes', { params: { path: { run_id: runId }, query: wanted }, signal })),
+    refetchInterval: isLive ? SLOW_POLL_MS : false,
+    placeholderData: keepPreviousData,
+  });
+}
+
+export function timelinesQuery(runId: string, { epoch, index }: EpisodePlace) {
+  return queryOptions({
+    queryKey: ['runs', 'episode', runId, epoch, index],
+    queryFn: ({ signal }) =>
+      unwrap(
+        client.GET('/api/runs/{run_id}/episodes/{epoch}/{index}', {
+          params: { path: { run_id: runId, epoch, index } },
+          signal,
+        }),
+      ),
+    staleTime: Number.POSITIVE_INFINITY,
+  });
+}

@@ -1,0 +1,66 @@
+/** One cell of a run, by the key of its column. */
+import type { RunSummary } from '@/client/schema.gen';
+import { AnchorLink } from '@/components/anchor-link';
+import { RunProgress } from '@/components/run-progress';
+import { RunThumbnail } from '@/components/run-thumbnail';
+import { StateBadge } from '@/components/state-badge';
+import { TagChips } from '@/components/tag-chips';
+import { formatDuration, NOTHING } from '@/lib/format';
+import { runTitle } from '@/lib/run-title';
+import { wishOf } from '@/lib/states';
+import { BUILT_INS, type BuiltIn } from '../columns';
+import classes from './lines.module.css';
+import { Elapsed, Launched, Speed, Success } from './run-figures';
+
+/** Fits a line of the table [px]. */
+const THUMBNAIL_WIDTH = 36;
+
+interface Props {
+  column: BuiltIn;
+  run: RunSummary;
+  onTag: (tag: string) => void;
+}
+
+export function RunCell({ column, run, onTag }: Props) {
+  if (column === 'task') {
+    return (
+      <th scope="row">
+        <RunThumbnail runId={run.id} version={run.state} width={THUMBNAIL_WIDTH} />{' '}
+        <AnchorLink to="/runs/$runId" params={{ runId: run.id }} fw={600} fz={13} aria-label={runTitle(run)}>
+          {run.task}
+        </AnchorLink>
+      </th>
+    );
+  }
+  return (
+    <td data-number={BUILT_INS[column].isNumber || undefined} className={column === 'preset' ? 'faint' : undefined}>
+      {contentOf(column, run, onTag)}
+    </td>
+  );
+}
+
+function contentOf(column: Exclude<BuiltIn, 'task'>, run: RunSummary, onTag: Props['onTag']) {
+  switch (column) {
+    case 'state':
+      return <StateBadge state={run.state} wish={wishOf(run)} />;
+    case 'phase':
+    case 'method':
+    case 'seed':
+    case 'preset':
+      return run[column];
+    case 'tags':
+      return run.tags.length === 0 ? null : <TagChips tags={run.tags} onPick={onTag} className={classes.tags} />;
+    case 'progress':
+      return <RunProgress progress={run.progress} state={run.state} label={`Progress of ${runTitle(run)}`} />;
+    case 'success':
+      return <Success progress={run.progress} />;
+    case 'speed':
+      return <Speed run={run} />;
+    case 'left':
+      return run.state === 'running' ? formatDuration(run.progress?.seconds_left) : NOTHING;
+    case 'duration':
+      return <Elapsed run={run} />;
+    case 'launched':
+      return <Launched run={run} />;
+  }
+}

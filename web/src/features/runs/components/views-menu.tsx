@@ -1,0 +1,71 @@
+/** Saved views: open, keep, rename and forget what the table shows. */
+import { Button, FocusTrap, Popover, TextInput } from '@mantine/core';
+import { useQuery } from '@tanstack/react-query';
+import { useRouterState } from '@tanstack/react-router';
+import { type FormEvent, useState } from 'react';
+import { useToast } from '@/components/toasts';
+import { sentence } from '@/lib/api';
+import { useChangeViews, type ViewWish, viewsQuery } from '../api/views';
+import classes from './runs.module.css';
+import { ViewRow } from './view-row';
+
+/** Characters of a view's name. */
+export const LONGEST_VIEW_NAME = 80;
+
+export function ViewsMenu() {
+  const { data } = useQuery(viewsQuery);
+  const search = useRouterState({ select: (state) => state.location.searchStr.replace(/^\?/, '') });
+  const toast = useToast();
+  const changing = useChangeViews();
+  const change = (wish: ViewWish, onDone?: () => void): void =>
+    changing.mutate(wish, {
+      onSuccess: onDone,
+      onError: (error) => toast({ text: sentence(error), isProblem: true }),
+    });
+  const views = data?.views ?? [];
+  const current = views.find((view) => view.search === search);
+  return (
+    <Popover position="bottom-start" shadow="md" trapFocus>
+      <Popover.Target>
+        <Button variant={current ? 'light' : 'default'} size="xs" title="Views that were given a name, for everyone">
+          {current ? current.name : 'Views'}
+        </Button>
+      </Popover.Target>
+      <Popover.Dropdown>
+        <div className={classes.choices}>
+          <FocusTrap.InitialFocus />
+          {views.length === 0 && <span className="faint">No view is saved yet.</span>}
+          {views.map((view) => (
+            <ViewRow key={view.id} view={view} isCurrent={view === current} onChange={change} />
+          ))}
+          {current === undefined && (
+            <NewView onSave={(name, onDone) => change({ kind: 'save', name, search }, onDone)} />
+          )}
+        </div>
+      </Popover.Dropdown>
+    </Popover>
+  );
+}
+
+function NewView({ onSave }: { onSave: (name: string, onDone: () => void) => void }) {
+  const [name, setName] = useState('');
+  const save = (event: FormEvent): void => {
+    event.preventDefault();
+    if (name.trim() !== '') onSave(name.trim(), () => setName(''));
+  };
+  return (
+    <form className={classes.line} onSubmit={save}>
+      <TextInput
+        size="xs"
+        aria-label="Name of the view"
+        placeholder="Name for what is shown now"
+        maxLength={LONGEST_VIEW_NAME}
+        value={name}
+        onChange={(event) => setName(event.currentTarget.value)}
+      />
+      <Button type="submit" size="xs" variant="light" disabled={name.trim() === ''}>
+        Save
+      </Button>
+    </form>
+  );
+}

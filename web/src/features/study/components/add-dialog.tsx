@@ -1,0 +1,91 @@
+/** More seeds, tasks or methods for a study; says what that would queue before it is done. */
+import { Button, Group, Modal, MultiSelect, Stack, TextInput } from '@mantine/core';
+import { useQuery } from '@tanstack/react-query';
+import { useState } from 'react';
+import type { StudyDetail } from '@/client/schema.gen';
+import { PreviewSums } from '@/components/preview-sums';
+import { sentence } from '@/lib/api';
+import { choicesQuery } from '@/lib/queries';
+import { parseSeeds } from '@/lib/seeds';
+import { previewQuery } from '@/lib/study-preview';
+import type { StudyWish } from '@/lib/use-study-action';
+
+interface Props {
+  study: StudyDetail;
+  isOpen: boolean;
+  onClose: () => void;
+  onSend: (wish: StudyWish) => void;
+}
+
+export function AddDialog({ study, isOpen, onClose, onSend }: Props) {
+  return (
+    <Modal opened={isOpen} onClose={onClose} title="Add to the study" centered>
+      {isOpen && <Form study={study} onClose={onClose} onSend={onSend} />}
+    </Modal>
+  );
+}
+
+function Form({ study, onClose, onSend }: Omit<Props, 'isOpen'>) {
+  const { spec } = study;
+  const { data: choices } = useQuery(choicesQuery);
+  const [seedText, setSeedText] = useState(String(Math.max(...spec.seeds) + 1));
+  const [tasks, setTasks] = useState<string[]>([]);
+  const [methods, setMethods] = useState<string[]>([]);
+  const read = readSeeds(seedText);
+  const seeds = read.seeds.filter((seed) => !spec.seeds.includes(seed));
+  const isEmpty = seeds.length + tasks.length + methods.length === 0;
+  const longer = {
+    ...spec,
+    seeds: [...spec.seeds, ...seeds],
+    tasks: [...spec.tasks, ...tasks],
+    methods: [...spec.methods, ...methods],
+  };
+  const preview = useQuery(previewQuery(isEmpty || read.problem ? null : longer, study.id));
+  const others = (names: readonly { name: string }[] = [], known: readonly string[] = []): string[] =>
+    names.map(({ name }) => name).filter((name) => !known.includes(name));
+  return (
+    <Stack gap="sm">
+      <TextInput
+        label="Seeds"
+        description={`There are ${spec.seeds.join(', ')}. Add 5, or 5-9; leave it empty to add none.`}
+        value={seedText}
+        error={read.problem}
+        data-autofocus
+        onChange={(event) => setSeedText(event.currentTarget.value)}
+      />
+      <MultiSelect label="Tasks" data={others(choices?.tasks, spec.tasks)} value={tasks} onChange={setTasks} />
+      <MultiSelect
+        label="Methods"
+        data={others(choices?.methods, spec.methods)}
+        value={methods}
+        onChange={setMethods}
+      />
+      {isEmpty && !read.problem && <p className="faint">The study has all of that already.</p>}
+      {preview.data && !isEmpty && <PreviewSums preview={preview.data} />}
+      {preview.error && <p className="problem">{sentence(preview.error)}</p>}
+      <Group justify="flex-end" gap="xs">
+        <Button variant="default" onClick={onClose}>
+          Leave it
+        </Button>
+        <Button
+          disabled={isEmpty || read.problem !== undefined || preview.isError}
+          onClick={() => {
+            onSend({ action: 'extend', studyId: study.id, addition: { seeds, tasks, methods } });
+            onClose();
+          }}
+        >
+          Add and queue
+        </Button>
+      </Group>
+    </Stack>
+  );
+}
+
+function readSeeds(text: string): { seeds: number[]; problem?: string } {
+  if (text.trim() === '') return { seeds: [] };
+  try {
+    return { seeds: parseSeeds(text) };
+  } catch (error) {
+    return { seeds: [], problem: (error as Error).message };
+  }
+}

@@ -1,0 +1,79 @@
+/** What can be done with a study: compare, fill, retry, add to it, copy, delete and bring back. */
+import { Button } from '@mantine/core';
+import { useDisclosure } from '@mantine/hooks';
+import type { StudyDetail } from '@/client/schema.gen';
+import { ButtonLink } from '@/components/anchor-link';
+import { Icon } from '@/components/icon';
+import { useToast } from '@/components/toasts';
+import { sentence } from '@/lib/api';
+import { type StudyWish, useStudyAction } from '@/lib/use-study-action';
+import { AddDialog } from './add-dialog';
+import { EditDialog } from './edit-dialog';
+import classes from './study.module.css';
+
+export function StudyActions({ study }: { study: StudyDetail }) {
+  const toast = useToast();
+  const wishes = useStudyAction();
+  const [isAdding, adding] = useDisclosure(false);
+  const [isEditing, editing] = useDisclosure(false);
+  const send = (wish: StudyWish, undo?: () => void): void =>
+    wishes.mutate(wish, {
+      onSuccess: (text) => toast({ text, undo }),
+      onError: (error) => toast({ text: sentence(error), isProblem: true }),
+    });
+  const act = (action: 'fill' | 'retry-failed' | 'retry-cancelled' | 'restore'): void =>
+    send({ action, studyId: study.id });
+  const missing = study.cells.reduce((sum, cell) => sum + cell.missing_seeds.length, 0);
+  const count = (state: 'failed' | 'cancelled'): number =>
+    (study.states[state] ?? 0) + study.locomotion.filter((run) => run.state === state).length;
+  if (study.deleted_at !== null) {
+    return (
+      <span className={classes.actions}>
+        <Button size="xs" loading={wishes.isPending} onClick={() => act('restore')}>
+          Restore
+        </Button>
+      </span>
+    );
+  }
+  return (
+    <span className={classes.actions}>
+      <Button component="a" href={`/compare?study=${study.id}`} size="xs" leftSection={<Icon name="chart" size={14} />}>
+        Compare
+      </Button>
+      {missing > 0 && (
+        <Button size="xs" variant="light" loading={wishes.isPending} onClick={() => act('fill')}>
+          Fill {missing} missing
+        </Button>
+      )}
+      {count('failed') > 0 && (
+        <Button size="xs" variant="light" loading={wishes.isPending} onClick={() => act('retry-failed')}>
+          Retry {count('failed')} failed
+        </Button>
+      )}
+      {count('cancelled') > 0 && (
+        <Button size="xs" variant="default" loading={wishes.isPending} onClick={() => act('retry-cancelled')}>
+          Retry {count('cancelled')} cancelled
+        </Button>
+      )}
+      <Button size="xs" variant="default" onClick={adding.open}>
+        Add seeds …
+      </Button>
+      <Button size="xs" variant="default" leftSection={<Icon name="edit" size={13} />} onClick={editing.open}>
+        Edit
+      </Button>
+      <ButtonLink to="/studies/new" search={{ from: study.id }} size="xs" variant="default">
+        Clone
+      </ButtonLink>
+      <Button
+        size="xs"
+        variant="default"
+        leftSection={<Icon name="trash" size={13} />}
+        onClick={() => send({ action: 'delete', studyId: study.id }, () => act('restore'))}
+      >
+        Delete
+      </Button>
+      <AddDialog study={study} isOpen={isAdding} onClose={adding.close} onSend={send} />
+      <EditDialog study={study} isOpen={isEditing} onClose={editing.close} onSend={send} />
+    </span>
+  );
+}

@@ -1,0 +1,31 @@
+/** What curves are drawn over, and how places on it are written. */
+import { formatDuration, formatShort } from '@/lib/format';
+
+export type Axis = 'epoch' | 'env_steps' | 'episodes' | 'updates' | 'wall_seconds';
+
+export const AXIS_NAMES: Readonly<Record<Axis, string>> = {
+  epoch: 'Epoch',
+  env_steps: 'Env steps',
+  episodes: 'Episodes',
+  updates: 'Updates',
+  wall_seconds: 'Wall time',
+};
+
+/** Ticks of the wall time lie on round numbers of seconds, minutes or hours [s]. */
+const TIME_STEPS = [1, 5, 10, 30, 60, 120, 300, 600, 1800, 3600, 7200, 18_000, 36_000, 86_400];
+
+/** Distances that ticks of an axis may have, where plain round numbers read badly. */
+export function xSteps(axis: Axis): readonly number[] | undefined {
+  return axis === 'wall_seconds' ? TIME_STEPS : undefined;
+}
+
+/** A place on the x axis as text. */
+export function formatX(axis: Axis, value: number): string {
+  if (axis === 'wall_seconds') return formatDuration(value);
+  return axis === 'epoch' ? String(Number(value.toFixed(2))) : formatShort(value);
+}
+
+/** Whether the values of a metric are shares from 0 to 1. */
+export function isShare(metric: string): boolean {
+  return /(success_rate|fraction|share)$/.test(metric);
+}

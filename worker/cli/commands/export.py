@@ -1,0 +1,202 @@
+"""`sldr export`: figures, the bundle behind them, and runs for other tools."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import closing
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Literal, cast
+
+import tyro
+
+from backend.comparison.best import compare_best
+from backend.comparison.curves import SUCCESS_RATE, CurveView, compare_curves
+from backend.comparison.memory import ComparisonMemory
+from backend.comparison.records import Axis, BestModels, CurveComparison, Statistic
+from backend.figures.bundle import Bundle, make_bundle
+from backend.figures.csv_tables import best_csv, curves_csv
+from backend.figures.drawing import Drawing, Format, draw_apart
+from backend.figures.latex import best_latex, curves_latex
+from backend.figures.styles import Width
+from backend.store.compared_runs import RunChoice, find_compared_runs, read_configs
+from backend.store.database import Database, open_database
+from backend.store.runs import get_runs
+from backend.store.settings import load_settings
+from sldr_core.config import Phase
+from sldr_core.errors import InvalidConfig, UnknownName
+from worker.cli.commands.export_rerun import export_rerun
+from worker.exports.exported_run import ExportedRun, load_exported
+
+FIGURES = ("svg", "pdf", "png", "csv", "tex")
+Many = tyro.conf.UseAppendAction[tuple[str, ...]]
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """Which runs: all that pass every option that is given."""
+
+    task: Many = ()
+    """Only runs of this task; may be given again, as the next ones."""
+    method: Many = ()
+    """Only runs of this method."""
+    preset: Many = ()
+    """Only runs of this preset."""
+    run: Many = ()
+    """Only the run with this id."""
+    study: str | None = None
+    """Only runs of the study with this id."""
+    phase: Phase = "manipulation"
+    """Which training."""
+
+    def choice(self) -> RunChoice:
+        """Return the choice as the store takes it."""
+        return RunChoice(self.phase, self.task, self.method, self.preset, self.run, self.study)
+
+
+@dataclass(frozen=True)
+class Shown:
+    """How they are shown."""
+
+    metric: str = SUCCESS_RATE
+    """What curves show."""
+    x: Axis = "epoch"
+    """What curves are drawn over."""
+    statistic: Statistic = "median"
+    """What several seeds say together; seeds draws each."""
+    level: float = 0.95
+    """Of confidence intervals."""
+    seeds: bool = False
+    """Whether each seed is drawn as well."""
+    width: Width = "double"
+    """One column of a paper, both, or a slide."""
+
+    def view(self) -> CurveView:
+        """Return the view as comparisons take it."""
+        if not 0.5 <= self.level <= 0.999:
+            raise InvalidConfig({"level": f"it must lie between 0.5 and 0.999, got {self.level}"})
+        return CurveView(self.metric, self.x, self.statistic, self.level, self.seeds)
+
+
+Runs = tyro.conf.OmitArgPrefixes[Chosen]
+View = tyro.conf.OmitArgPrefixes[Shown]
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Run the command; `--rerun RUN OUT` is short for `rerun RUN OUT`."""
+    given = ["rerun", *arguments[1:]] if arguments[:1] == ["--rerun"] else list(arguments)
+    kinds: dict[str, Callable[..., int]] = {
+        "figure": figure,
+        "bundle": bundle,
+        "tensorboard": tensorboard,
+        "mlflow": mlflow,
+        "rerun": rerun,
+    }
+    return tyro.extras.subcommand_cli_from_dict(kinds, prog="sldr export", args=given)
+
+
+def figure(out: Path, runs: Runs, view: View, kind: Literal["curves", "best"] = "curves") -> int:
+    """Draw one figure, or write the numbers behind it.
+
+    Args:
+        out: The file to write; its ending says what: .svg, .pdf, .png, .csv or .tex.
+        runs: Which runs.
+        view: How they are shown.
+        kind: Learning curves, or bars of best models.
+    """
+    form = out.suffix.removeprefix(".")
+    if form not in FIGURES:
+        raise UnknownName("kind of figure", form, FIGURES)
+    with closing(open_database(load_settings())) as db:
+        memory = ComparisonMemory()
+        compare = compare_curves if kind == "curves" else compare_best
+        content = compare(db, memory, runs.choice(), view.view())
+    return _write(out, _figure_file(content, form, view.width))
+
+
+def bundle(out: Path, runs: Runs, view: View, anonymous: bool = False) -> int:
+    """Pack figures, numbers, configs, versions, seeds and references into one archive.
+
+    Args:
+        out: The .zip file to write.
+        runs: Which runs.
+        view: How they are shown.
+        anonymous: Leave out what tells who made it, and where.
+    """
+    with closing(open_database(load_settings())) as db:
+        memory, choice, shown = ComparisonMemory(), runs.choice(), view.view()
+        curves = compare_curves(db, memory, choice, shown)
+        best = compare_best(db, memory, choice, shown)
+        ids = [member.run_id for panel in curves.panels for curve in panel.curves for member in curve.members]
+        parts = Bundle(curves, best, read_configs(db, ids), anonymous, view.width)
+    return _write(out, make_bundle(parts))
+
+
+def tensorboard(out: Path, runs: Runs, overwrite: bool = False) -> int:
+    """Write runs as TensorBoard's event files.
+
+    Args:
+        out: The directory to write below; each run gets one of its own.
+        runs: Which runs.
+        overwrite: Replace earlier exports of the same runs.
+    """
+    from worker.exports.tensorboard import export_to_tensorboard
+
+    for run in _exported(runs):
+        print(export_to_tensorboard(run, out, overwrite))
+    return 0
+
+
+def mlflow(uri: Annotated[str, tyro.conf.arg(metavar="URI")], runs: Runs) -> int:
+    """Write runs to an MLflow tracking store.
+
+    Args:
+        uri: Its address, as MLflow takes it: file:/path, sqlite:////path/mlflow.db or http://host:port.
+        runs: Which runs.
+    """
+    from worker.exports.mlflow import export_to_mlflow
+
+    for run in _exported(runs):
+        print(export_to_mlflow(run, uri), run.name)
+    return 0
+
+
+def rerun(run: tyro.conf.Positional[str], out: tyro.conf.Positional[Path]) -> int:
+    """Write curves, episodes and log of a run for Rerun.
+
+    Args:
+        run: The id of the run.
+        out: The .rrd file to write.
+    """
+    return export_rerun(run, out)
+
+
+def _exported(runs: Chosen) -> Iterator[ExportedRun]:
+    with closing(open_database(load_settings())) as db:
+        for row in get_runs(db, _ids(db, runs)):
+            yield load_exported(db, row)
+
+
+def _ids(db: Database, runs: Chosen) -> list[str]:
+    ids = [run.id for run in find_compared_runs(db, runs.choice()).runs]
+    if not ids:
+        raise InvalidConfig({"runs": "none passes these options; `sldr runs` lists what there is"})
+    return ids
+
+
+def _figure_file(content: CurveComparison | BestModels, form: str, width: Width) -> bytes:
+    is_curves = isinstance(content, CurveComparison)
+    if form == "csv":
+        return (curves_csv(content) if is_curves else best_csv(content)).encode()
+    if form == "tex":
+        return (curves_latex(content) if is_curves else best_latex(content)).encode()
+    [drawn] = draw_apart([Drawing(content, cast(Format, form), width)])
+    return drawn
+
+
+def _write(out: Path, content: bytes) -> int:
+    if not out.absolute().parent.is_dir():
+        raise InvalidConfig({"out": f"there is no directory {out.absolute().parent}; make it first"})
+    out.write_bytes(content)
+    print(out)
+    return 0

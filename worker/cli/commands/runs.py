@@ -1,0 +1,77 @@
+"""`sldr runs`: the runs in the store, as the page lists them."""
+
+from __future__ import annotations
+
+import dataclasses
+import json as json_format
+from collections.abc import Sequence
+from contextlib import closing
+from typing import Any
+
+import tyro
+
+from backend.store.database import open_database
+from backend.store.runs import RunFilter, RunRow, list_runs
+from backend.store.settings import load_settings
+from backend.store.states import RunState
+from sldr_core.config import Phase
+from sldr_core.errors import InvalidConfig, UnknownName
+
+MOST_ROWS = 10_000
+"""Runs listed at once at most."""
+HEAD = ("ID", "STATE", "TASK", "PHASE", "METHOD", "SEED", "PRESET", "DONE", "BEST")
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Run the command."""
+    return tyro.cli(show, prog="sldr runs", args=list(arguments))
+
+
+def show(
+    state: str | None = None,
+    task: str | None = None,
+    method: str | None = None,
+    phase: Phase | None = None,
+    search: str | None = None,
+    limit: int = 20,
+    json: bool = False,
+) -> int:
+    """List runs, the newest first.
+
+    Args:
+        state: Only runs in this state, as in running or failed.
+        task: Only runs of this task.
+        method: Only runs of this method.
+        phase: Only runs of this phase.
+        search: Words that task, method, phase, preset or state hold, or the beginning of an id.
+        limit: How many to list.
+        json: Print everything known about each, for programs.
+    """
+    if not 1 <= limit <= MOST_ROWS:
+        raise InvalidConfig({"limit": f"it must be between 1 and {MOST_ROWS}, got {limit}"})
+    if state is not None and state not in list(RunState):
+        raise UnknownName("state", state, list(RunState))
+    wanted = RunFilter(state=RunState(state) if state else None, task=task, method=method, phase=phase, search=search)
+    with closing(open_database(load_settings())) as db:
+        found = list_runs(db, wanted, limit)
+    if json:
+        print(json_format.dumps([dataclasses.asdict(row) for row in found.rows], indent=2, default=str))
+        return 0
+    print("\n".join(_as_lines(found.rows)))
+    if found.next_cursor is not None:
+        print(f"{len(found.rows)} of {found.total} runs; --limit shows more.")
+    return 0
+
+
+def _as_lines(rows: Sequence[RunRow]) -> list[str]:
+    if not rows:
+        return ["No run matches."]
+    cells: list[tuple[Any, ...]] = [HEAD, *(_cells(row) for row in rows)]
+    widths = [max(len(str(line[column])) for line in cells) for column in range(len(HEAD))]
+    return ["  ".join(f"{cell!s:{width}}" for cell, width in zip(line, widths, strict=True)).rstrip() for line in cells]
+
+
+def _cells(row: RunRow) -> tuple[Any, ...]:
+    done, best = (row.progress.fraction, row.progress.best_success_rate) if row.progress else (0.0, None)
+    told = (f"{done:.0%}", "-" if best is None else f"{best:.1%}")
+    return row.id, row.state, row.task, row.phase, row.method, row.seed, row.preset, *told
