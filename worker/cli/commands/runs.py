@@ -51,7 +51,13 @@ def show(
         raise InvalidConfig({"limit": f"it must be between 1 and {MOST_ROWS}, got {limit}"})
     if state is not None and state not in list(RunState):
         raise UnknownName("state", state, list(RunState))
-    wanted = RunFilter(state=RunState(state) if state else None, task=task, method=method, phase=phase, search=search)
+    wanted = RunFilter(
+        states=[RunState(state)] if state else (),
+        tasks=[task] if task else (),
+        methods=[method] if method else (),
+        phases=[phase] if phase else (),
+        search=search,
+    )
     with closing(open_database(load_settings())) as db:
         found = list_runs(db, wanted, limit)
     if json:
