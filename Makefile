@@ -10,10 +10,10 @@ PORT ?= 8000
 PARTS ?= all
 # Options of `make chaos`; `make chaos CHAOS=--help` lists them.
 CHAOS ?=
-# Locomotion models that `make pictures-3d` takes its pictures of.
-MODELS ?=
 # Options of `make bench`; `make bench BENCH=--help` lists them.
 BENCH ?=
+# Locomotion models that `make pictures-3d` takes its pictures of.
+MODELS ?=
 # What the system packages are for: run, or test.
 purpose := run
 
@@ -38,6 +38,9 @@ bench: setup ## Measure speed beside peers; the table goes into docs/performance
 pictures: setup ## Take a picture of every page, light and dark, into docs/pictures (minutes)
 	@SLDR_CHROMIUM=$$(.ci/find-chromium.sh) .venv/bin/python tests/pictures docs/pictures
 
+pictures-3d: setup ## Make the inspector's pictures in docs/pictures; MODELS names locomotion.pt files
+	@SLDR_CHROMIUM=$$(.ci/find-chromium.sh) .venv/bin/python tests/pictures/inspector.py $(MODELS)
+
 setup: system .make/package web ## Make the Python environment and build the page
 
 web: web/dist/index.html ## Build the page
@@ -46,9 +49,6 @@ client: .make/package web/node_modules/.package-lock.json ## Generate the page's
 	@.venv/bin/python -m backend.api.schema build/openapi.json
 	@cd web && npm run --silent client
 	@echo "$(CLIENT) fits the API"
-
-pictures-3d: setup ## Make the inspector's pictures in docs/pictures; MODELS names locomotion.pt files
-	@.venv/bin/python tests/pictures/inspector.py $(MODELS)
 
 lock: ## Ask pip again for the exact version of everything
 	@.ci/lock.sh

@@ -39,13 +39,15 @@ from sldr_core.training.files import LOCOMOTION_FILE, NEWEST_POLICY_FILE
 ROOT = Path(__file__).parents[2]
 PATIENCE_MS = 120_000
 """The page is drawn without a graphics card: patience [ms]."""
+HEIGHT = 1400
+"""Height of the page [px]: all of it, as Viser lays its panel out again when that changes."""
 COLOURS = 128
 """Colours of a picture's palette: the files stay small."""
 
 
 HIDE_PANEL = """node => {
     for (let at = node, panel = null; ; at = at.parentElement) {
-        if (at === null) { panel.style.display = 'none'; return; }
+        if (at === null) { panel.style.setProperty('visibility', 'hidden', 'important'); return; }
         if (getComputedStyle(at).boxShadow !== 'none') panel = at;
     }
 }"""
@@ -129,7 +131,9 @@ def browsing(width: int, dark: bool) -> Iterator[Page]:
         chromium = os.environ.get("SLDR_CHROMIUM", "/usr/bin/chromium")
         browser = playwright.chromium.launch(executable_path=chromium, args=CHROMIUM_ARGUMENTS)
         page = browser.new_page(
-            viewport={"width": width, "height": 900}, color_scheme="dark" if dark else "light", reduced_motion="reduce"
+            viewport={"width": width, "height": HEIGHT},
+            color_scheme="dark" if dark else "light",
+            reduced_motion="reduce",
         )
         page.set_default_timeout(PATIENCE_MS)
         expect.set_options(timeout=PATIENCE_MS)
