@@ -74,7 +74,9 @@ class Picture:
 
 PICTURES = (
     Picture("push", "FetchPush", "FetchPush", "value of being elsewhere", step=2, number=2),
-    Picture("stack2", "FetchPickAndPlace", "FetchStack2", "value of doing something else", step=4, part="block 2"),
+    Picture(
+        "stack2", "FetchPickAndPlace", "FetchStack2", "value of doing something else", step=1, number=1, part="block 2"
+    ),
     Picture("tuple5", "FetchTuple5", "FetchTuple5", "value of doing something else", step=6),
     Picture("block-rotate", "HandBlockRotate", "HandBlockRotate", "value of being turned otherwise", step=6),
 )
