@@ -45,14 +45,16 @@ def one_thread() -> Iterator[None]:
 
 
 @pytest.fixture(scope="module")
-def collected(server: viser.ViserServer) -> InspectorShow:
-    """Return a view with a fan of one block."""
+def collected() -> Iterator[InspectorShow]:
+    """Return a view, on a page of its own, with a fan of one block."""
+    server = open_page()
     show = InspectorShow(server, inspect("FetchPickAndPlace"))
     show.transport.is_playing = False
     ask(show, "fan", count=BLOCK, seed=4)
     while show.state()["fan"]["collecting"]:
         show.advance(0.0)
-    return show
+    yield show
+    server.stop()
 
 
 @pytest.fixture(scope="module")
