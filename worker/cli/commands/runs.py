@@ -11,7 +11,8 @@ from typing import Any
 import tyro
 
 from backend.store.database import open_database
-from backend.store.runs import RunFilter, RunRow, list_runs
+from backend.store.run_filter import RunFilter
+from backend.store.runs import RunRow, list_runs
 from backend.store.settings import load_settings
 from backend.store.states import RunState
 from sldr_core.config import Phase
@@ -51,7 +52,13 @@ def show(
         raise InvalidConfig({"limit": f"it must be between 1 and {MOST_ROWS}, got {limit}"})
     if state is not None and state not in list(RunState):
         raise UnknownName("state", state, list(RunState))
-    wanted = RunFilter(state=RunState(state) if state else None, task=task, method=method, phase=phase, search=search)
+    wanted = RunFilter(
+        states=() if state is None else (RunState(state),),
+        tasks=_given(task),
+        methods=_given(method),
+        phases=_given(phase),
+        search=search,
+    )
     with closing(open_database(load_settings())) as db:
         found = list_runs(db, wanted, limit)
     if json:
@@ -61,6 +68,10 @@ def show(
     if found.next_cursor is not None:
         print(f"{len(found.rows)} of {found.total} runs; --limit shows more.")
     return 0
+
+
+def _given(word: str | None) -> tuple[str, ...]:
+    return () if word is None else (word,)
 
 
 def _as_lines(rows: Sequence[RunRow]) -> list[str]:
