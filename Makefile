@@ -12,6 +12,8 @@ PARTS ?= all
 CHAOS ?=
 # Options of `make bench`; `make bench BENCH=--help` lists them.
 BENCH ?=
+# Locomotion models that `make pictures-3d` takes its pictures of.
+MODELS ?=
 # What the system packages are for: run, or test.
 purpose := run
 
@@ -19,7 +21,7 @@ PIP := .venv/bin/python -m pip --disable-pip-version-check --quiet
 WEB_SOURCES := $(shell find web/src web/public -type f -not -name '*.test.*' 2>/dev/null)
 CLIENT := web/src/client/schema.gen.ts
 
-.PHONY: run test chaos bench pictures setup web client lock format clean help system
+.PHONY: run test chaos bench pictures pictures-3d setup web client lock format clean help system
 
 run: setup ## Set everything up and serve the page; HOST and PORT say where
 	@exec .venv/bin/sldr serve --host $(HOST) --port $(PORT)
@@ -35,6 +37,9 @@ bench: setup ## Measure speed beside peers; the table goes into docs/performance
 
 pictures: setup ## Take a picture of every page, light and dark, into docs/pictures (minutes)
 	@SLDR_CHROMIUM=$$(.ci/find-chromium.sh) .venv/bin/python tests/pictures docs/pictures
+
+pictures-3d: setup ## Make the inspector's pictures in docs/pictures; MODELS names locomotion.pt files
+	@SLDR_CHROMIUM=$$(.ci/find-chromium.sh) .venv/bin/python tests/pictures/inspector.py $(MODELS)
 
 setup: system .make/package web ## Make the Python environment and build the page
 
@@ -57,9 +62,9 @@ clean: ## Remove everything that was made; trained runs stay
 	rm -rf .make .venv build web/dist web/node_modules web/client-generator/node_modules *.egg-info
 
 help: ## List what can be made
-	@sed -nE 's/^([a-z]+):.*## (.*)/  make \1\t\2/p' Makefile | expand -t 16
+	@sed -nE 's/^([a-z0-9-]+):.*## (.*)/  make \1\t\2/p' Makefile | expand -t 16
 
-test bench pictures: purpose := test
+test bench pictures pictures-3d: purpose := test
 system:
 	@.ci/system-packages.sh $(purpose)
 

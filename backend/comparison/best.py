@@ -20,6 +20,7 @@ from backend.comparison.records import (
     BestScore,
     Efficiency,
     Improvement,
+    Numbers,
     OverallScore,
     Profile,
     SeedReach,
@@ -183,7 +184,7 @@ def _profile(scored: _Scored, group: str, tasks: Sequence[str], level: float) ->
     scores = [scored.scores(task, group) for task in tasks]
     estimate = performance_profile(scores, PROFILE_THRESHOLDS, level)
     has_band = min(map(len, scores)) >= SEEDS_FOR_BAND
-    nothing = [None] * len(PROFILE_THRESHOLDS)
+    nothing: Numbers = [None] * len(PROFILE_THRESHOLDS)
     return Profile(
         group=group,
         tasks=len(tasks),

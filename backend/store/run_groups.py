@@ -65,6 +65,7 @@ def group_runs(
     descending: bool = True,
 ) -> list[RunGroup]:
     """Return the groups of the runs that pass a filter; groups without what they are sorted by stand last."""
+    by = tuple(dict.fromkeys(by))
     source, values = join_summaries(with_progress(), (metric,))
     keys = [runs.c[_COLUMNS.get(key, key)].label(f"key_{key}") for key in by]
     query = select(*keys, runs.c.number, runs.c.seed, runs.c.state, values[metric].label("value"))

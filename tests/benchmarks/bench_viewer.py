@@ -45,10 +45,9 @@ def main(tasks: list[str]) -> None:
         settings = Settings(home=Path(home), database_url=sqlite_url(Path(home)))
         database = open_database(settings)
         runs = {task: prepare(database, settings, task) for task in tasks}
-        keep_warm()
+        keep_warm().wait()
         host = Host(database, settings, target=serve_session, limits=Limits(sessions=OPENED, unopened_s=3.0))
         host.begin()
-        measure_opening(host, database, runs[tasks[0]])  # the first waits for what is imported beforehand
         for task, run_id in runs.items():
             print(f"{task}: {measure(host, database, run_id)}", flush=True)
         print(leave_many(host, database, runs[tasks[0]]))

@@ -13,7 +13,7 @@ from backend.comparison.best import compare_best
 from backend.comparison.configs import compare_configs
 from backend.comparison.curves import CurveView, compare_curves
 from backend.comparison.memory import ComparisonMemory
-from backend.comparison.records import CurveComparison, GroupCurve, Statistic
+from backend.comparison.records import CurveComparison, GroupCurve, Numbers, Statistic
 from backend.store.claims import Claim
 from backend.store.compared_runs import RunChoice, find_compared_runs
 from backend.store.database import Database
@@ -40,6 +40,11 @@ def only_curve(db: Database, memory: ComparisonMemory | None = None, **view) -> 
     return curve
 
 
+def floats(numbers: Numbers) -> np.ndarray:
+    """Return numbers as an array, NaN where there is none."""
+    return np.array(numbers, dtype=np.float64)
+
+
 def seeds_of(db: Database, task: str, method: str) -> list[list[float]]:
     """Read each seed's curve the way a run's own page does."""
     runs = find_compared_runs(db, RunChoice(tasks=[task], methods=[method])).runs
@@ -54,8 +59,8 @@ def test_the_median_is_that_of_the_runs_own_curves(sample_db: Database):
         for curve in panel.curves:
             seeds = np.array(seeds_of(sample_db, panel.task, curve.group))
             assert curve.x == list(range(1, 11))
-            assert_allclose(curve.centre, np.median(seeds, axis=0))
-            assert_allclose([curve.low, curve.high], np.percentile(seeds, [25, 75], axis=0))
+            assert_allclose(floats(curve.centre), np.median(seeds, axis=0))
+            assert_allclose([floats(curve.low), floats(curve.high)], np.percentile(seeds, [25, 75], axis=0))
             assert (curve.n, set(curve.n_at), curve.losses) == (3, {3}, [])
 
 
@@ -158,7 +163,7 @@ def test_best_scores_are_the_highest_tests_of_each_seed(sample_db: Database):
         highest = [max(seed) for seed in seeds_of(sample_db, score.task, score.group)]
         assert [seed.best for seed in score.seeds] == highest
         interval = scipy.stats.t.interval(0.95, 2, np.mean(highest), scipy.stats.sem(highest))
-        assert_allclose([score.centre, score.low, score.high], [np.mean(highest), *interval])
+        assert_allclose(floats([score.centre, score.low, score.high]), [np.mean(highest), *interval])
 
 
 def test_every_chart_of_best_models_has_its_table(sample_db: Database):

@@ -22,6 +22,7 @@ from small_training import (
 from sldr_core.config import TrainConfig, config_from_dict, config_hash
 from sldr_core.envs import make_envs
 from sldr_core.episodes import RecordedTest, read_episodes, tag_shares
+from sldr_core.nets.files import load_tensors, save_tensors
 from sldr_core.nets.locomotion_model import load_locomotion_model
 from sldr_core.nets.views import table_state
 from sldr_core.presets import make_config
@@ -29,7 +30,9 @@ from sldr_core.records import Episodes
 from sldr_core.replay.sampling import Draw, read_sample
 from sldr_core.training import train
 from sldr_core.training.build import Parts
+from sldr_core.training.checkpoint import KIND as CHECKPOINT_KIND
 from sldr_core.training.cycle import learn, on_device
+from sldr_core.training.files import CHECKPOINT_FILE
 from sldr_core.training.recording import EpisodeRecording
 from sldr_core.training.resimulation import first_differences, make_resimulation
 from sldr_core.training.rollout import numpy_policy
@@ -223,3 +226,14 @@ def test_a_resumed_training_records_the_same_bytes(model: Path, tmp_path: Path) 
         assert shares["episodes/never_touched_share"] == pytest.approx(
             [episode.tag for episode in kept.episodes].count("never_touched") / 3
         )
+
+
+def test_a_checkpoint_of_before_episodes_were_recorded_is_gone_on_from(tmp_path: Path) -> None:
+    config = tiny_config(epochs=3)
+    train(config, StoppingRecorder(tmp_path, 3, "shutdown"))
+    content = load_tensors(tmp_path / CHECKPOINT_FILE, CHECKPOINT_KIND)
+    del content["counters"]["best_epoch"], content["config"]["loop"]["recorded_episodes"]
+    save_tensors(tmp_path / CHECKPOINT_FILE, content)
+
+    assert run(config, tmp_path).finished
+    assert (tmp_path / "episodes-epoch-0003.npz").exists()

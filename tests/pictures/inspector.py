@@ -39,8 +39,6 @@ from sldr_core.training.files import LOCOMOTION_FILE, NEWEST_POLICY_FILE
 ROOT = Path(__file__).parents[2]
 PATIENCE_MS = 120_000
 """The page is drawn without a graphics card: patience [ms]."""
-PRODUCT = (*WHOLE, "--workers", "0")
-"""Everything but what trains."""
 COLOURS = 128
 """Colours of a picture's palette: the files stay small."""
 
@@ -84,7 +82,7 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as home:
         settings = Settings(Path(home), sqlite_url(Path(home)))
         runs = make_runs(settings, options.models)
-        service = serving(settings.home, free_port(), PRODUCT, ("viewer_alive",))
+        service = serving(settings.home, free_port(), WHOLE, ("viewer_alive", "workers_alive"))
         with service as address, browsing(options.width, options.dark) as page:
             for picture in PICTURES:
                 if picture.task in runs and (not options.only or picture.name in options.only):
@@ -145,8 +143,8 @@ def take(page: Page, picture: Picture, path: Path) -> None:
     if picture.part:
         page.get_by_label("Object", exact=True).select_option(label=picture.part)
     page.get_by_label("Step", exact=True).and_(page.get_by_role("slider")).fill(str(picture.step))
-    expect(page.get_by_label("Slice of Q").get_by_role("img")).to_be_visible()
-    close_toasts(page)
+    expect(page.get_by_role("img", name="Q at this moment")).to_be_visible()
+    clear_view(page)
     page.screenshot(path=path, full_page=True, timeout=PATIENCE_MS)
     Image.open(path).convert("RGB").quantize(COLOURS).save(path, optimize=True)
     print(f"{path}: {path.stat().st_size / 1000:.0f} kB", flush=True)
@@ -160,13 +158,15 @@ def free_port() -> int:
         return probe.getsockname()[1]
 
 
-def close_toasts(page: Page) -> None:
-    """Give the scene time to be drawn, and close what Viser says of software rendering."""
+def clear_view(page: Page) -> None:
+    """Give the scene time to be drawn, close what Viser says of software rendering, and fold its panel."""
     frame = page.frame_locator("iframe")
     toast = frame.get_by_text("Software WebGL")
     expect(toast).to_be_visible()
     frame.locator(".mantine-Notification-closeButton").first.click()
     expect(toast).to_be_hidden()
+    frame.get_by_text("Connected").click()
+    expect(frame.get_by_text("Scene tree")).to_be_hidden()
 
 
 if __name__ == "__main__":

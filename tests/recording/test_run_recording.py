@@ -97,7 +97,7 @@ def test_the_command_writes_curves_episodes_and_log(
         monkeypatch.setenv(name, value)
     out = tmp_path / "run.rrd"
 
-    assert main(["--rerun", held.run_id, str(out)]) == 0
+    assert main(["rerun", held.run_id, str(out)]) == 0
 
     assert f"rerun {out}" in capsys.readouterr().out
     found = {chunk.entity_path for chunk in RrdReader(out).stream()}

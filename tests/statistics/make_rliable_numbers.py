@@ -21,7 +21,7 @@ FILE = Path(__file__).parent / "data" / "rliable.json"
 
 def main() -> None:
     """Write the scores asked about, and the answers."""
-    from rliable import library, metrics
+    from rliable import library, metrics  # pyright: ignore[reportMissingImports]
 
     rng = np.random.default_rng(7)
     first = np.round(rng.beta(5, 2, size=(5, 4)), 3)

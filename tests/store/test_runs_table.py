@@ -120,7 +120,7 @@ def test_groups_differ_in_the_seed_alone(db: Database) -> None:
     assert (three.spread.n, three.spread.median) == (2, pytest.approx(0.25))
     assert (other.keys["task"], other.keys["method"], other.seeds) == ("FetchPush", "her", (1,))
     assert len(ids(db, RunFilter(settings=three.keys["settings"]))) == 3
-    assert [group.runs for group in group_runs(db, RunFilter(), ("task",), SCORE)] == [4]
+    assert [group.runs for group in group_runs(db, RunFilter(), ("task", "task"), SCORE)] == [4]
 
 
 def test_groups_are_sorted_and_those_without_a_value_stand_last(db: Database) -> None:

@@ -21,10 +21,9 @@ COMMANDS = {
     "evaluate": "Measure the success of a trained policy.",
     "replay": "Simulate recorded episodes again and compare every bit.",
     "render": "Draw the picture of a task.",
-    "export": "Write what the store has of runs for other tools, such as Rerun.",
+    "export": "Draw figures of runs, or write runs for other tools: Rerun, TensorBoard, MLflow.",
     "backup": "Copy all runs and their files to one place, while everything runs.",
     "restore": "Bring back what backup has copied.",
-    "export": "Draw figures of runs, or write runs for other trackers.",
     "list": "List tasks, methods or presets.",
 }
 

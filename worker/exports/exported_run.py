@@ -10,7 +10,7 @@ from backend.comparison.variants import as_text, flatten
 from backend.store.database import Database
 from backend.store.runs import RunRow
 from sldr_core.records import Step
-from worker.recorder import read_curves
+from worker.recording.curves import read_curves
 
 
 @dataclass(frozen=True)

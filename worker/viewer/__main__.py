@@ -54,8 +54,7 @@ def host_sessions(settings: Settings) -> None:
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda *_: stop.set())
     database = open_database(settings)
-    keep_warm()
-    host = Host(database, settings, target=serve_session)
+    host = Host(database, settings, target=serve_session, is_warm=keep_warm().is_set)
     host.begin()
     media = MediaHost(database, settings)
     pictures = _draw_pictures(settings.home)

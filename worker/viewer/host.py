@@ -10,6 +10,7 @@ import multiprocessing
 import os
 import signal
 import socket
+import threading
 import time
 import uuid
 from collections.abc import Callable
@@ -81,6 +82,8 @@ class Host:
     settings: Settings
     target: Target
     limits: Limits = field(default_factory=Limits)
+    is_warm: Callable[[], bool] = lambda: True
+    """Whether sessions can be started without waiting."""
     host_id: str = field(default_factory=lambda: uuid.uuid4().hex[:12])
     served: dict[str, Served] = field(default_factory=dict)
     _beat_at: float = field(default=-1e9, init=False)
@@ -102,7 +105,7 @@ class Host:
             self._end_if_over(served, now)
         open_sessions = viewer_sessions.list_open(self.database)
         self._end_closed({session.id for session in open_sessions})
-        if any(session.host_id is None for session in open_sessions):
+        if self.is_warm() and any(session.host_id is None for session in open_sessions):
             self._take_next(now)
         if now - self._beat_at >= self.limits.beat_s:
             self._beat(now)
@@ -212,10 +215,32 @@ class Host:
             log.warning("session %s goes on with what it has: %s", session.id, err)
 
 
-def keep_warm() -> None:
-    """Start the process from which sessions are forked; it ends with this one, whichever way."""
-    multiprocessing.get_context("forkserver").set_forkserver_preload(WARM_MODULES)
+def keep_warm() -> threading.Event:
+    """Start the process from which sessions are forked; it ends with this one, whichever way.
+
+    Returns:
+        What is set once it has imported everything. To ask it for a session before would mean to wait, and a host that
+        waits gives no sign of life.
+    """
+    context = multiprocessing.get_context("forkserver")
+    context.set_forkserver_preload(WARM_MODULES)
     forkserver.ensure_running()
+    is_warm = threading.Event()
+    threading.Thread(target=_wait_until_warm, args=(is_warm,), name="warming", daemon=True).start()
+    return is_warm
+
+
+def _wait_until_warm(is_warm: threading.Event) -> None:
+    try:
+        probe = multiprocessing.get_context("forkserver").Process(target=_do_nothing)
+        probe.start()
+        probe.join()
+    finally:
+        is_warm.set()
+
+
+def _do_nothing() -> None:
+    """End at once."""
 
 
 def _is_another_process(pid: int) -> bool:

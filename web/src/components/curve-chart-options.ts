@@ -2,6 +2,7 @@
 import type uPlot from 'uplot';
 import { axisLook, sharedCursor, zoomToSelection } from '@/components/chart-cursor';
 import { drawCurves } from '@/components/curve-chart-draw';
+import { logAxis } from '@/components/log-axis';
 import { type Curve, type Emphasis, nearestCurve } from '@/lib/curves';
 import type { Scheme } from '@/lib/palette';
 import type { Range } from '@/lib/zoom';
@@ -56,14 +57,16 @@ export function curveChartOptions(now: () => CurveChartState, width: number): uP
         gap: 4,
         space: 56,
         ...(xSteps && !isLogX && { incrs: [...xSteps] }),
-        values: (_plot, splits) => splits.map((value) => (isTick(value, isLogX) ? now().formatX(value) : '')),
+        ...(isLogX && logAxis('x')),
+        values: (_plot, splits) => splits.map((value) => (value === null ? '' : now().formatX(value))),
       },
       {
         ...axis,
         size: 48,
         gap: 5,
         space: 26,
-        values: (_plot, splits) => splits.map((value) => (isTick(value, isLogY) ? now().formatY(value) : '')),
+        ...(isLogY && logAxis('y')),
+        values: (_plot, splits) => splits.map((value) => (value === null ? '' : now().formatY(value))),
       },
     ],
     // The curves are painted by hand: the one series only tells the plot where there are points.
@@ -81,13 +84,6 @@ export function curveChartOptions(now: () => CurveChartState, width: number): uP
       draw: [(plot) => drawCurves(plot, now().curves, now().emphasis, now().isLogY, now().isSmoothed)],
     },
   };
-}
-
-/** On a logarithmic axis only powers of ten, their doubles and fives carry numbers. */
-function isTick(value: number, isLog: boolean): boolean {
-  if (!isLog) return true;
-  const lead = value / 10 ** Math.floor(Math.log10(value) + 1e-9);
-  return [1, 2, 5].some((digit) => Math.abs(lead - digit) < 1e-6);
 }
 
 /** The curve near the cursor. */

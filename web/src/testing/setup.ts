@@ -36,10 +36,15 @@ globalThis.ResizeObserver = NoResizes;
 Object.defineProperties(Element.prototype, {
   clientHeight: { configurable: true, get: () => 700 },
   clientWidth: { configurable: true, get: () => 1200 },
+  scrollHeight: { configurable: true, get: () => 1_000_000 },
 });
+Object.defineProperty(document, 'fonts', { configurable: true, value: new EventTarget() });
 globalThis.IntersectionObserver = AllSeen;
 window.scrollTo = () => {};
-Element.prototype.scrollTo = () => {};
+Element.prototype.scrollTo = function (this: Element, to?: ScrollToOptions | number) {
+  this.scrollTop = typeof to === 'object' ? (to.top ?? 0) : 0;
+  this.dispatchEvent(new Event('scroll'));
+};
 Element.prototype.scrollIntoView = () => {};
 window.matchMedia = (query) => ({
   matches: false,

@@ -88,9 +88,9 @@ def main(arguments: Sequence[str]) -> int:
     kinds: dict[str, Callable[..., int]] = {
         "figure": figure,
         "bundle": bundle,
+        "rerun": rerun,
         "tensorboard": tensorboard,
         "mlflow": mlflow,
-        "rerun": rerun,
     }
     return tyro.extras.subcommand_cli_from_dict(kinds, prog="sldr export", args=given)
 
@@ -132,6 +132,16 @@ def bundle(out: Path, runs: Runs, view: View, anonymous: bool = False) -> int:
     return _write(out, make_bundle(parts))
 
 
+def rerun(run: tyro.conf.Positional[str], out: tyro.conf.Positional[Path]) -> int:
+    """Make the Rerun file of a run again from the store: its curves, episodes and log.
+
+    Args:
+        run: The id of the run.
+        out: The .rrd file to write.
+    """
+    return export_rerun(run, out)
+
+
 def tensorboard(out: Path, runs: Runs, overwrite: bool = False) -> int:
     """Write runs as TensorBoard's event files.
 
@@ -159,16 +169,6 @@ def mlflow(uri: Annotated[str, tyro.conf.arg(metavar="URI")], runs: Runs) -> int
     for run in _exported(runs):
         print(export_to_mlflow(run, uri), run.name)
     return 0
-
-
-def rerun(run: tyro.conf.Positional[str], out: tyro.conf.Positional[Path]) -> int:
-    """Write curves, episodes and log of a run for Rerun.
-
-    Args:
-        run: The id of the run.
-        out: The .rrd file to write.
-    """
-    return export_rerun(run, out)
 
 
 def _exported(runs: Chosen) -> Iterator[ExportedRun]:

@@ -1,4 +1,4 @@
-"""`sldr export --rerun RUN OUT`: the Rerun file of a run, made again from the store."""
+"""`sldr export rerun RUN OUT`: the Rerun file of a run, made again from the store."""
 
 from __future__ import annotations
 

@@ -11,8 +11,7 @@ from typing import Any
 import tyro
 
 from backend.store.database import open_database
-from backend.store.run_filter import RunFilter
-from backend.store.runs import RunRow, list_runs
+from backend.store.runs import RunFilter, RunRow, list_runs
 from backend.store.settings import load_settings
 from backend.store.states import RunState
 from sldr_core.config import Phase
@@ -53,10 +52,10 @@ def show(
     if state is not None and state not in list(RunState):
         raise UnknownName("state", state, list(RunState))
     wanted = RunFilter(
-        states=() if state is None else (RunState(state),),
-        tasks=_given(task),
-        methods=_given(method),
-        phases=_given(phase),
+        states=[RunState(state)] if state else (),
+        tasks=[task] if task else (),
+        methods=[method] if method else (),
+        phases=[phase] if phase else (),
         search=search,
     )
     with closing(open_database(load_settings())) as db:
@@ -68,10 +67,6 @@ def show(
     if found.next_cursor is not None:
         print(f"{len(found.rows)} of {found.total} runs; --limit shows more.")
     return 0
-
-
-def _given(word: str | None) -> tuple[str, ...]:
-    return () if word is None else (word,)
 
 
 def _as_lines(rows: Sequence[RunRow]) -> list[str]:

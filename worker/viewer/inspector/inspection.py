@@ -89,7 +89,7 @@ class Inspection:
         self.number, self.shown_seed = number, self.seed
         drawn = self.source.draw(self.seed, indices)
         fan = self.fan
-        if fan is not None and indices[-1] < fan.count:
+        if fan is not None and fan.seed == self.seed and indices[-1] < fan.count:
             kept = slice(indices[0], indices[-1] + 1)
             self._show(demonstrate(self.envs, drawn, self.inspected.act, given=fan.action[kept]), "replayed")
             self.is_exact = np.array_equal(self.demonstration.achieved, fan.achieved[kept])

@@ -83,7 +83,10 @@ BLOCK_HALF = 0.025
 
 
 def picture_of(value: NDArray[np.floating]) -> NDArray[np.uint8]:
-    """Return values `[rows up, columns across]` as a picture, the last row on top, with lines of equal value."""
+    """Return values `[rows up, columns across]` as a picture with lines of equal value.
+
+    The first row is on top: Viser draws pictures with y downwards, so that the last row lies furthest along the y axis.
+    """
     smooth = enlarge(shares_of(value), PIXELS)
     level = np.floor(smooth * CONTOURS)
     line = np.zeros(level.shape, dtype=np.bool_)
@@ -92,7 +95,7 @@ def picture_of(value: NDArray[np.floating]) -> NDArray[np.uint8]:
     colour = colours_of(smooth)
     colour[line] = (0.55 * colour[line]).astype(np.uint8)
     alpha = np.full((*smooth.shape, 1), round(255 * OPACITY), dtype=np.uint8)
-    return np.concatenate([colour, alpha], axis=2)[::-1]
+    return np.concatenate([colour, alpha], axis=2)
 
 
 def enlarge(values: Array, factor: int) -> Array:

@@ -5,7 +5,18 @@ import { EPISODE_SORTS, type EpisodeSort, readEpisode } from './episodes/place';
 import { TAGS, type Tag } from './episodes/tags';
 
 /** The tabs of the run page. */
-export const TABS = ['overview', '3d', 'demonstrations', 'episodes', 'rerun', 'videos', 'config', 'log', 'history', 'files'] as const;
+export const TABS = [
+  'overview',
+  '3d',
+  'demonstrations',
+  'episodes',
+  'rerun',
+  'videos',
+  'config',
+  'log',
+  'history',
+  'files',
+] as const;
 export type Tab = (typeof TABS)[number];
 
 /** What the charts may be drawn over. */

@@ -12,17 +12,17 @@ export interface Column {
 
 /** By key, in the order of the table. The server sorts by the same keys. */
 const COLUMNS = {
-  state: { name: 'State', width: 110, isSortable: true },
-  task: { name: 'Task', width: 138, isSortable: true },
-  phase: { name: 'Phase', width: 96, isSortable: true },
-  method: { name: 'Method', width: 80, isSortable: true },
-  seed: { name: 'Seed', width: 52, isNumber: true, isSortable: true },
+  state: { name: 'State', width: 106, isSortable: true },
+  task: { name: 'Task', width: 139, isSortable: true },
+  phase: { name: 'Phase', width: 91, isSortable: true },
+  method: { name: 'Method', width: 76, isSortable: true },
+  seed: { name: 'Seed', width: 46, isNumber: true, isSortable: true },
   preset: { name: 'Preset', width: 60, isSortable: true },
-  tags: { name: 'Tags', width: 92, help: 'What people call it; a click narrows the table to a tag' },
-  progress: { name: 'Progress', width: 104, isSortable: true, isLargestFirst: true, help: 'Epoch it is in, of all' },
+  tags: { name: 'Tags', width: 80, help: 'What people call it; a click narrows the table to a tag' },
+  progress: { name: 'Progress', width: 108, isSortable: true, isLargestFirst: true, help: 'Epoch it is in, of all' },
   success: {
     name: 'Success',
-    width: 92,
+    width: 88,
     isNumber: true,
     isSortable: true,
     isLargestFirst: true,
@@ -30,15 +30,15 @@ const COLUMNS = {
   },
   speed: {
     name: 'Speed',
-    width: 78,
+    width: 84,
     isNumber: true,
     isSortable: true,
     isLargestFirst: true,
     help: 'Environment steps per second, and gradient updates per second',
   },
-  left: { name: 'Time left', width: 68, isNumber: true, isSortable: true },
+  left: { name: 'Left', help: 'Time it will still take', width: 54, isNumber: true, isSortable: true },
   duration: { name: 'Duration', width: 68, isNumber: true, isSortable: true, isLargestFirst: true },
-  launched: { name: 'Launched', width: 74, isNumber: true, isSortable: true, isLargestFirst: true },
+  launched: { name: 'Launched', width: 78, isNumber: true, isSortable: true, isLargestFirst: true },
 } satisfies Record<string, Column>;
 
 export type BuiltIn = keyof typeof COLUMNS;

@@ -10,7 +10,7 @@ export function besideQuery({ id, task, phase }: RunDetail) {
   return queryOptions({
     queryKey: ['runs', 'beside', id],
     queryFn: async ({ signal }) => {
-      const query = { task, phase, limit: MOST_RUNS };
+      const query = { task: [task], phase: [phase], limit: MOST_RUNS };
       const page = await unwrap(client.GET('/api/runs', { params: { query }, signal }));
       return page.runs.filter((run) => run.id !== id && run.started_at !== null);
     },

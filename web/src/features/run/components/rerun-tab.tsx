@@ -28,7 +28,7 @@ export function RerunTab({ run }: { run: RunDetail }) {
     return (
       <SentencePanel title="No recording yet">
         {hasEnded(run.state)
-          ? 'This run has left none. `sldr export --rerun` makes one from what the store has.'
+          ? 'This run has left none. `sldr export rerun` makes one from what the store has.'
           : 'It appears after the first test, and is renewed while the run trains.'}
       </SentencePanel>
     );

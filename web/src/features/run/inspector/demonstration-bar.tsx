@@ -21,7 +21,7 @@ const LOOK_NAMES: Record<Look, string> = {
 
 export function DemonstrationBar({ scene, state, about }: Props) {
   const { tell } = scene;
-  const open = (number: number): void => tell({ do: 'open', seed: state.seed, number });
+  const open = (number: number): void => tell({ do: 'open', seed: state.fan?.seed ?? state.seed, number });
   return (
     <section className={`card ${classes.bar}`} aria-label="Demonstration">
       <div className={classes.row}>
