@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from statistics import median
-from typing import Any
 
 from sqlalchemy import Connection, select
 
@@ -14,7 +11,7 @@ from backend.store.durations import MEASURED_AT_MOST, Like, likenesses
 from backend.store.run_plans import PlannedRun
 from backend.store.states import RunState
 from backend.store.tables import attempts, run_progress, runs
-from sldr_core.config import config_to_dict
+from sldr_core.config import settings_hash
 from sldr_core.presets.budget import control_steps, gradient_updates
 
 STARTING_S = 6.0
@@ -36,7 +33,7 @@ class Speeds:
     """Hold what was measured on succeeded runs."""
 
     seconds_of: dict[str, list[float]] = field(default_factory=dict[str, "list[float]"])
-    """Time that runs of equal settings took, whatever their seed [s]."""
+    """Time that runs took [s], by the hash of all their settings but the seed."""
     by_likeness: dict[Like, list[Speed]] = field(default_factory=dict[Like, "list[Speed]"])
     """Speeds by what the runs were."""
 
@@ -46,7 +43,7 @@ class Speeds:
         Runs that differ by nothing but the seed say it best. Without them it is the planned control steps and updates
         at the speeds of the nearest runs; a training that may end early then takes that at most.
         """
-        equal = self.seconds_of.get(settings_key(config_to_dict(planned.config)))
+        equal = self.seconds_of.get(settings_hash(planned.config))
         if equal:
             return median(equal)
         for likeness in likenesses(planned.task, planned.phase, planned.method, planned.preset):
@@ -61,7 +58,7 @@ class Speeds:
 def measure_speeds(conn: Connection) -> Speeds:
     """Measure the newest succeeded runs."""
     newest = (
-        select(runs.c.id, runs.c.task, runs.c.phase, runs.c.method, runs.c.preset, runs.c.config)
+        select(runs.c.id, runs.c.task, runs.c.phase, runs.c.method, runs.c.preset, runs.c.settings_hash)
         .where(runs.c.state == RunState.SUCCEEDED)
         .order_by(runs.c.number.desc())
         .limit(MEASURED_AT_MOST)
@@ -73,7 +70,7 @@ def measure_speeds(conn: Connection) -> Speeds:
     speeds = Speeds()
     for row in found:
         if row.id in seconds:
-            speeds.seconds_of.setdefault(settings_key(row.config), []).append(seconds[row.id])
+            speeds.seconds_of.setdefault(row.settings_hash, []).append(seconds[row.id])
         measured = progress.get(row.id)
         if measured and measured.env_steps_per_s and measured.updates_per_s:
             speed = Speed(measured.env_steps_per_s, measured.updates_per_s)
@@ -90,8 +87,3 @@ def _training_seconds(conn: Connection, run_ids: list[str]) -> dict[str, float]:
     for row in conn.execute(query.where(*ended)):
         seconds[row.run_id] = seconds.get(row.run_id, 0.0) + (row.ended_at - row.started_at).total_seconds()
     return seconds
-
-
-def settings_key(config: Mapping[str, Any]) -> str:
-    """Return a text that is equal for configs that differ by nothing but the seed."""
-    return json.dumps({name: value for name, value in config.items() if name != "seed"}, sort_keys=True)

@@ -7,7 +7,8 @@ import json
 import pytest
 
 from backend.store.database import Database
-from backend.store.runs import RunFilter, list_runs
+from backend.store.run_filter import RunFilter
+from backend.store.runs import list_runs
 from backend.store.settings import Settings
 from backend.store.studies.matrix import list_studies
 from worker.cli import main

@@ -14,8 +14,11 @@ from backend.store.database import Database
 from backend.store.errors import NotFound, Refused
 from backend.store.launches import launch
 from backend.store.outcomes import Failed, Succeeded
-from backend.store.runs import RunFilter, get_run, list_runs
+from backend.store.run_filter import RunFilter
+from backend.store.runs import get_run, list_runs
+from backend.store.speeds import STARTING_S
 from backend.store.states import RunState
+from backend.store.studies.estimate import estimate_study
 from backend.store.studies.launch import (
     Launched,
     create_study,
@@ -251,3 +254,20 @@ def test_the_matrix_tells_states_progress_and_the_median_of_the_best_tests(db: D
     assert matrix.study.progress == pytest.approx(cell.progress)
     assert dict(matrix.study.states) == dict(cell.states)
     assert list_studies(db, 1)[0].progress == pytest.approx(cell.progress)
+
+
+def test_time_is_told_from_the_runs_of_this_store(db: Database) -> None:
+    spec = small_spec(methods=("her",), seeds=(0, 1))
+    create_study(db, "first", replace(spec, seeds=(0,)))
+    train_next(db, Succeeded(0.5))
+
+    alike, longer = (
+        estimate_study(db, preview_study(db, replace(spec, overrides=overrides)))
+        for overrides in ({}, {"loop": {"epochs": 4}})
+    )
+
+    assert alike.training_s is not None
+    assert alike.training_s < STARTING_S  # what the run beside it took: nothing was trained in it
+    # warm-up, eight cycles and four tests of 4 episodes of 50 steps at 500 a second; 4 updates a cycle at 10 a second
+    assert longer.training_s == pytest.approx(2 * (STARTING_S + 13 * 200 / 500.0 + 32 / 10.0))
+    assert (alike.unknown_runs, longer.unknown_runs) == (0, 0)

@@ -6,7 +6,7 @@ import pytest
 from study_cases import small_spec
 
 from backend.store.run_plans import PlannedRun
-from backend.store.speeds import STARTING_S, Speed, Speeds, settings_key
+from backend.store.speeds import STARTING_S, Speed, Speeds
 from backend.store.studies.estimate import estimate
 from backend.store.studies.spec import (
     MOST_RUNS,
@@ -21,7 +21,7 @@ from backend.store.studies.spec import (
     spec_to_dict,
 )
 from backend.store.studies.templates import FAMILIES, TEMPLATES
-from sldr_core.config import METHODS, TASKS, config_hash, config_to_dict
+from sldr_core.config import METHODS, TASKS, config_hash, settings_hash
 from sldr_core.errors import InvalidConfig, UnknownName
 from sldr_core.presets import make_config
 from sldr_core.presets.budget import control_steps, gradient_updates
@@ -117,7 +117,7 @@ def test_time_is_planned_steps_and_updates_at_the_median_speeds_of_the_nearest_r
 
 def test_runs_that_differ_by_the_seed_alone_say_it_best() -> None:
     speeds = Speeds({}, SMOKE_LIKE)
-    speeds.seconds_of[settings_key(config_to_dict(planned("her", 5).config))] = [30.0, 50.0, 40.0]
+    speeds.seconds_of[settings_hash(planned("her", 5).config)] = [30.0, 50.0, 40.0]
 
     assert speeds.seconds_for(planned("her", 0)) == 40.0
     assert speeds.seconds_for(planned("her", 0, loop={"epochs": 4})) != 40.0

@@ -39,7 +39,14 @@ TWO_MINUTES = StudySpec(
     seeds=(0, 1, 2),
     preset="quick",
     overrides={
-        "loop": {"epochs": 5, "cycles_per_epoch": 2, "updates_per_cycle": 20, "batch_size": 256, "test_episodes": 38},
+        "loop": {
+            "epochs": 5,
+            "cycles_per_epoch": 2,
+            "episodes_per_cycle": 20,
+            "updates_per_cycle": 20,
+            "batch_size": 256,
+            "test_episodes": 20,
+        },
         "replay": {"capacity": 60_000},
         "sldr": {"gate": 0.0},
     },

@@ -37,9 +37,9 @@ export function StudyActions({ study }: { study: StudyDetail }) {
   }
   return (
     <span className={classes.actions}>
-      <Button component="a" href={`/compare?study=${study.id}`} size="xs" leftSection={<Icon name="chart" size={14} />}>
+      <ButtonLink to="/compare" search={{ study: study.id }} size="xs" leftSection={<Icon name="chart" size={14} />}>
         Compare
-      </Button>
+      </ButtonLink>
       {missing > 0 && (
         <Button size="xs" variant="light" loading={wishes.isPending} onClick={() => act('fill')}>
           Fill {missing} missing
