@@ -18,7 +18,7 @@ check_web-test() { npm --prefix web run --silent test; }
 check_pytest() {
     SLDR_CHROMIUM=$(.ci/find-chromium.sh) || return
     export SLDR_CHROMIUM
-    # Most tests wait for other processes; each file stays in one process, for what its tests share.
+    # Most tests wait for other processes, so a third one finds time; tests/conftest.py says what stays together.
     .venv/bin/pytest --numprocesses $(($(nproc) + 1)) --dist loadfile --no-loadscope-reorder \
         --durations 25 --durations-min 5 && return
     # Deadlines can pass on a machine that is busy elsewhere, so what failed beside others is asked once more, alone.

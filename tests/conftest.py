@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 from postgres_server import PostgresServer
 from store_engines import PostgresStores, SqliteStores, Stores
+from xdist.scheduler import LoadFileScheduling
 
 from backend.store.database import Database, open_database
 from backend.store.settings import Settings
@@ -26,6 +27,24 @@ CHROMIUM_ARGUMENTS = [
 
 LONGEST_FIRST = ("browser", "cluster", "chaos", "worker", "core", "cli", "viewer")
 """Rooms that take long begin first, so that at the end no process is left alone with one of their files."""
+
+
+ONE_PROCESS = ("browser", "cluster")
+"""Rooms that share what is dear to start: a whole service, a cluster."""
+
+
+class RoomScheduling(LoadFileScheduling):
+    """Keep each file in one process, and these rooms as a whole."""
+
+    def _split_scope(self, nodeid: str) -> str:
+        file = nodeid.partition("::")[0]
+        room = Path(file).parent.name
+        return room if room in ONE_PROCESS else file
+
+
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> RoomScheduling:
+    """Hand out tests by rooms and files."""
+    return RoomScheduling(config, log)
 
 
 @pytest.hookimpl(trylast=True)

@@ -185,7 +185,8 @@ def is_host_alive(db: Database) -> bool:
 
 def _session(row: Mapping[str, Any]) -> Session:
     """Return a row as a record; rows that are older than requests asked for the newest policy."""
-    return Session(**{**row, "request": row["request"] or LIVE})
+    values: dict[str, Any] = {**row, "request": row["request"] or LIVE}
+    return Session(**values)
 
 
 def _change(db: Database, session_id: str, allowed: tuple[SessionState, ...], changes: dict[str, Any]) -> bool:

@@ -11,6 +11,7 @@ from __future__ import annotations
 import sys
 import tempfile
 import time
+from contextlib import closing
 from pathlib import Path
 
 import msgspec
@@ -86,7 +87,7 @@ def measure(host: Host, database: Database, run_id: str) -> str:
     """Watch one session for a while, and say what it cost."""
     session, opening_s = measure_opening(host, database, run_id)
     process = psutil.Process(host.served[session.id].process.pid)
-    with watch(session.port) as page:
+    with closing(watch(session.port)) as page:
         drain(page, 2.0)  # meshes first
         before, started = process.cpu_times(), time.monotonic()
         updates = drain(page, WATCHED_S)
@@ -136,7 +137,9 @@ def leave_many(host: Host, database: Database, run_id: str) -> str:
         host.tick()
         time.sleep(0.05)
     left = [pid for pid in set(pids) if psutil.pid_exists(pid)]
-    listening = {each.laddr.port for each in psutil.net_connections("tcp") if each.status == psutil.CONN_LISTEN}
+    listening = {
+        each.laddr.port for each in psutil.net_connections("tcp") if each.laddr and each.status == psutil.CONN_LISTEN
+    }
     return f"{OPENED} sessions opened and left: {len(left)} processes and {len(listening & set(ports))} ports remain"
 
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Generator
+from pathlib import Path
 
 import pytest
+from PIL import Image
 from plausible_runs import play_out
 from served_product import PAGE_AND_API, WHOLE, serving
 
@@ -13,15 +15,28 @@ from backend.store.launches import LaunchOrder, launch
 from backend.store.settings import Settings, sqlite_url
 from backend.store.studies.launch import create_study
 from backend.store.studies.spec import StudySpec
+from sldr_core.config import TASKS
 
 SEEDS = (0, 1, 2)
 """As many as a band needs; the last one's runs have not ended."""
+
+DRAWN = "FetchPush"
+"""The task whose picture is drawn for real; drawing all of them takes a minute of a core."""
+
+
+def leave_to_draw(home: Path, task: str) -> None:
+    """Put a picture of one pixel in the place of every other task's."""
+    pictures = home / "pictures"
+    pictures.mkdir()
+    for other in TASKS.keys() - {task}:
+        Image.new("RGB", (1, 1)).save(pictures / f"{other}.png")
 
 
 @pytest.fixture(scope="session")
 def product(tmp_path_factory: pytest.TempPathFactory, find_free_port: Callable[[], int]) -> Generator[str]:
     """Serve page, API, a worker and the viewer host with an empty data directory; return the address."""
     home = tmp_path_factory.mktemp("home")
+    leave_to_draw(home, DRAWN)
     with serving(home, find_free_port(), WHOLE, needs=("workers_alive", "viewer_alive")) as address:
         yield address
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import time
+from contextlib import closing
 from typing import Any
 
 import httpx
@@ -85,7 +86,7 @@ def test_the_bar_and_the_charts_drive_the_scene_to_the_very_state_of_the_file(
     shown = page.get_by_role("status", name="Step shown")
     expect(shown).to_contain_text(f"0 / {episode.length}", timeout=SOON_MS)
     expect(page.frame_locator("iframe[title='3D view']").locator("canvas").first).to_be_visible(timeout=SOON_MS)
-    with dial(product, page) as session:
+    with closing(dial(product, page)) as session:
         scrub = page.get_by_role("slider", name="Step")
         scrub.fill("23")
         expect(shown).to_contain_text("23 /", timeout=SOON_MS)
