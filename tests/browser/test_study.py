@@ -59,7 +59,7 @@ def finished_study(product: str, study_address: str) -> str:
 
 def test_a_study_is_watched_until_it_is_done(study_address: str, page: Page, finished_study: str) -> None:
     page.goto(study_address)
-    expect(page.get_by_text("100\u202f% trained")).to_be_visible(timeout=SOON_MS)
+    expect(page.locator("header").get_by_text("100\u202f% trained")).to_be_visible(timeout=SOON_MS)
     for method in METHODS:
         cell = page.get_by_role("button", name=re.compile(f"^FetchPush, {method}:"))
         expect(cell.get_by_title("3 succeeded")).to_be_visible()
