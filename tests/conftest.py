@@ -47,7 +47,7 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> RoomScheduli
     return RoomScheduling(config, log)
 
 
-@pytest.hookimpl(trylast=True)
+@pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Order tests by their rooms; within a room they stay as they were."""
     rank = {room: place for place, room in enumerate(LONGEST_FIRST)}
@@ -111,13 +111,16 @@ def postgres_stores(postgres_server: PostgresServer, tmp_path_factory: pytest.Te
     return PostgresStores(postgres_server, tmp_path_factory.mktemp("postgresql"))
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def engine() -> str:
-    """Return the engine of the test's store; rooms and tests that want both parametrise it."""
+    """Return the engine of the test's store; rooms and tests that want both parametrise it.
+
+    Not longer than for a module: `stores` would keep the engine of another room's tests.
+    """
     return "sqlite"
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def stores(engine: str, request: pytest.FixtureRequest) -> Stores:
     """Return a way to get fresh stores on the test's engine."""
     return request.getfixturevalue("sqlite_stores" if engine == "sqlite" else "postgres_stores")

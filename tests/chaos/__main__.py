@@ -18,9 +18,13 @@ from pathlib import Path
 from chaos_claims import measure_claims
 from chaos_crowd import Crowd, press
 from chaos_kills import Attack, attack
-from chaos_table import Finding, as_text, keep_findings
+from chaos_table import Finding, as_markdown, as_text
+from measured_page import write_results
 
 from backend.store.settings import DATABASE_VARIABLE, Settings, sqlite_url
+
+COMMAND = "make chaos"
+"""What writes the results."""
 
 PARTS = ("kills", "crowd", "claims")
 
@@ -37,7 +41,7 @@ def main() -> int:
         if not finding.complaints:
             shutil.rmtree(home)
     if options.write is not None:
-        keep_findings(options.write, findings)
+        write_results(options.write, COMMAND, [as_markdown(finding) for finding in findings])
     return 1 if any(finding.complaints for finding in findings) else 0
 
 

@@ -2,14 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
-from measured_page import write_results
-
-COMMAND = "make chaos"
-"""What writes the results."""
 NAMED_AT_MOST = 20
 """A table names so many complaints."""
 
@@ -30,12 +24,8 @@ def as_text(finding: Finding) -> str:
     return "\n".join([*lines, *_verdict(finding)])
 
 
-def keep_findings(page: Path, findings: Sequence[Finding]) -> None:
-    """Put findings into a page, in place of those before."""
-    write_results(page, COMMAND, [_as_markdown(finding) for finding in findings])
-
-
-def _as_markdown(finding: Finding) -> str:
+def as_markdown(finding: Finding) -> str:
+    """Return a finding for the documentation."""
     rows = "\n".join(f"| {label} | {value} |" for label, value in finding.rows)
     return f"### {finding.name}\n\n| what | measured |\n|---|---|\n{rows}\n\n" + "\n".join(_verdict(finding))
 

@@ -9,9 +9,9 @@ from chaos_claims import measure_claims
 from chaos_crowd import Crowd, press
 from chaos_evidence import Witness, complaints
 from chaos_kills import Attack, attack
-from chaos_table import COMMAND, Finding, as_text, keep_findings
+from chaos_table import Finding, as_markdown, as_text
 from chaos_training import METRIC, expected_curve
-from measured_page import END, begin_mark
+from measured_page import END, begin_mark, write_results
 from store_engines import ENGINES
 
 from backend.store.claims import Claim
@@ -45,7 +45,7 @@ def test_a_crowd_at_one_store_locks_nobody_out(settings: Settings) -> None:
     assert [complaint for complaint in finding.complaints if "No run" not in complaint] == []
 
 
-@pytest.mark.parametrize("engine", ENGINES, scope="session")
+@pytest.mark.parametrize("engine", ENGINES, scope="module")
 def test_each_run_of_a_long_queue_is_claimed_once(settings: Settings) -> None:
     finding = measure_claims(settings, queued=300, claimers=3, say=print)
 
@@ -99,11 +99,11 @@ def test_what_must_not_be_is_found(settings: Settings, crime: str | None, compla
 
 def test_results_replace_those_before(tmp_path: Path) -> None:
     page = tmp_path / "page.md"
-    page.write_text(f"# Title\n\n{begin_mark(COMMAND)}\nold\n{END}\n\nThe end.\n")
+    page.write_text(f"# Title\n\n{begin_mark('make it')}\nold\n{END}\n\nThe end.\n")
     finding = Finding("A long queue", [("claims per second", "400")], [])
 
-    keep_findings(page, [finding])
-    keep_findings(page, [finding])
+    write_results(page, "make it", [as_markdown(finding)])
+    write_results(page, "make it", [as_markdown(finding)])
 
     text = page.read_text()
     assert text.count("claims per second | 400") == 1

@@ -72,7 +72,7 @@ def test_what_is_missing_in_a_backup_is_named_and_told_by_the_exit_code(
     assert err == f"sldr: Left out: {tmp_path}/runs/{run_id}/policy-best.pt is gone.\n"
 
 
-@pytest.mark.parametrize("engine", ["postgresql"], scope="session")
+@pytest.mark.parametrize("engine", ["postgresql"], scope="module")
 def test_a_store_out_of_reach_is_told_in_one_sentence(
     capsys: pytest.CaptureFixture[str], settings: Settings, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):

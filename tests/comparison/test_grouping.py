@@ -52,9 +52,9 @@ def test_methods_come_in_their_own_order_with_their_own_colours():
     runs = [replace(RUN, id=method, method=method) for method in ("her-sldr", "ddpg", "her")]
     grouping = group_runs(runs, {run.id: () for run in runs})
     assert [(group.key, group.color, group.dash) for group in grouping.groups] == [
-        ("ddpg", 0, 0),
+        ("ddpg", 6, 6),
         ("her", 1, 1),
-        ("her-sldr", 6, 6),
+        ("her-sldr", 0, 0),
     ]
     assert grouping.groups[2].label == "HER-Sparse+SLDR"
 

@@ -6,7 +6,7 @@ import pytest
 from store_engines import ENGINES
 
 
-@pytest.fixture(scope="session", params=ENGINES)
+@pytest.fixture(scope="module", params=ENGINES)
 def engine(request: pytest.FixtureRequest) -> str:
     """Return the engine of the test's store."""
     return request.param

@@ -158,7 +158,7 @@ def test_a_store_that_is_used_is_not_overwritten_unless_asked(
     assert rows_of(settings) == before
 
 
-@pytest.mark.parametrize("engine", ["sqlite"], scope="session")
+@pytest.mark.parametrize("engine", ["sqlite"], scope="module")
 class TestOnOneEngine:
     """What does not hang on the engine."""
 

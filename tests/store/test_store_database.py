@@ -159,7 +159,7 @@ def test_a_writer_that_waits_too_long_says_so(settings: Settings, monkeypatch: p
     db.close()
 
 
-@pytest.mark.parametrize("engine", ["postgresql"], scope="session")
+@pytest.mark.parametrize("engine", ["postgresql"], scope="module")
 def test_a_value_that_postgresql_cannot_hold_is_told_in_words(db: Database) -> None:
     with pytest.raises(Unstorable, match=r"cannot hold or compare a value: .*NUL"):
         get_run(db, "a\x00b")
@@ -173,7 +173,7 @@ def test_a_store_of_a_later_version_is_left_alone(db: Database, settings: Settin
         open_database(settings)
 
 
-@pytest.mark.parametrize("engine", ["postgresql"], scope="session")
+@pytest.mark.parametrize("engine", ["postgresql"], scope="module")
 def test_a_store_that_cannot_be_opened_is_let_go(db: Database, settings: Settings) -> None:
     with db.write() as conn:
         conn.execute(text("UPDATE alembic_version SET version_num = '9999'"))

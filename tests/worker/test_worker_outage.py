@@ -15,7 +15,7 @@ from backend.store.runs import get_run
 from backend.store.settings import Settings
 from backend.store.states import RunState
 
-pytestmark = pytest.mark.parametrize("engine", ["postgresql"], scope="session")
+pytestmark = pytest.mark.parametrize("engine", ["postgresql"], scope="module")
 
 
 @pytest.mark.parametrize("ends_while_away", [False, True], ids=["goes on", "ends"])
