@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from datetime import datetime, timedelta
 from typing import Any, Literal
 
-from sqlalchemy import func, insert, select, update
+from sqlalchemy import RowMapping, func, insert, select, update
 
 from backend.store.database import Database, current_time
 from backend.store.errors import NotFound
@@ -183,9 +183,10 @@ def is_host_alive(db: Database) -> bool:
         return conn.execute(query).scalar_one() > 0
 
 
-def _session(row: Mapping[str, Any]) -> Session:
+def _session(row: RowMapping) -> Session:
     """Return a row as a record; rows that are older than requests asked for the newest policy."""
-    values: dict[str, Any] = {**row, "request": row["request"] or LIVE}
+    values: dict[str, Any] = {str(name): value for name, value in row.items()}
+    values["request"] = values["request"] or LIVE
     return Session(**values)
 
 
