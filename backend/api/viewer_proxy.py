@@ -53,7 +53,9 @@ class NoView(Exception):
 
 def viser_client() -> httpx.Client:
     """Return what fetches pages from the 3D servers: plain HTTP, no certificates, no proxy of the machine's."""
-    return httpx.Client(trust_env=False, verify=False, timeout=ANSWER_TIMEOUT_S)
+    # A kept connection may be closed by the other side just as it is used again, and a new one costs nothing here.
+    unkept = httpx.Limits(max_keepalive_connections=0)
+    return httpx.Client(trust_env=False, verify=False, timeout=ANSWER_TIMEOUT_S, limits=unkept)
 
 
 @router.get("/{token}")
