@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from command_line import run, use
 
 from backend.store.database import Database, open_database
 from backend.store.files import register_file
@@ -12,7 +13,6 @@ from backend.store.launches import LaunchOrder, launch
 from backend.store.queue import claim
 from backend.store.runs import get_run
 from backend.store.settings import Settings, sqlite_url
-from worker.cli import main
 
 
 @pytest.fixture
@@ -20,19 +20,6 @@ def run_id(db: Database, settings: Settings, monkeypatch: pytest.MonkeyPatch) ->
     """Return a run in the store that the environment names."""
     use(settings, monkeypatch)
     return launch(db, LaunchOrder("FetchPush", "manipulation", "her", [0], "smoke"))[0]
-
-
-def use(settings: Settings, monkeypatch: pytest.MonkeyPatch) -> None:
-    for name, value in settings.as_environment().items():
-        monkeypatch.setenv(name, value)
-
-
-def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
-    with pytest.raises(SystemExit) as ended:
-        main(arguments)
-    printed = capsys.readouterr()
-    assert isinstance(ended.value.code, int)
-    return ended.value.code, printed.out, printed.err
 
 
 def test_what_was_backed_up_is_restored(

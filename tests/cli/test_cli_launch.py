@@ -5,13 +5,13 @@ from __future__ import annotations
 import json
 
 import pytest
+from command_line import run, use
 
 from backend.store.database import Database
 from backend.store.run_filter import RunFilter
 from backend.store.runs import list_runs
 from backend.store.settings import Settings
 from backend.store.studies.matrix import list_studies
-from worker.cli import main
 
 ONE = ("launch", "--task", "FetchPush", "--method", "her-sldr", "--preset", "smoke", "--seeds", "0-1")
 STUDY = (*ONE, "--method", "her", "--study", "both")
@@ -19,16 +19,7 @@ STUDY = (*ONE, "--method", "her", "--study", "both")
 
 @pytest.fixture(autouse=True)
 def _in_the_store(settings: Settings, monkeypatch: pytest.MonkeyPatch) -> None:
-    for name, value in settings.as_environment().items():
-        monkeypatch.setenv(name, value)
-
-
-def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
-    with pytest.raises(SystemExit) as ended:
-        main(arguments)
-    printed = capsys.readouterr()
-    assert isinstance(ended.value.code, int)
-    return ended.value.code, printed.out, printed.err
+    use(settings, monkeypatch)
 
 
 def test_a_dry_run_says_what_a_launch_then_does(capsys: pytest.CaptureFixture[str], db: Database):
