@@ -7,8 +7,10 @@ import argparse
 import uvicorn
 from fastapi import FastAPI
 
+from backend.api.access.redaction import hide_secrets
 from backend.api.app import create_app
 from backend.api.hosts import load_host_rule
+from backend.store.access.entry import choose_mode
 from backend.store.settings import load_settings
 
 LARGEST_MESSAGE = 64 * 1024 * 1024
@@ -37,8 +39,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m backend.api", description="Serve the API and the page.")
     parser.add_argument("--host", default="127.0.0.1", help="address to listen on")
     parser.add_argument("--port", type=int, default=8000, help="port to listen on")
+    parser.add_argument("--accounts", action="store_true", help="ask for accounts on loopback too")
     arguments = parser.parse_args()
-    app = create_app(load_settings(), hosts=load_host_rule(arguments.host))
+    hide_secrets("sldr.api", "sldr.api.viewer", "uvicorn.access", "uvicorn.error")
+    mode = choose_mode(arguments.host, arguments.accounts)
+    app = create_app(load_settings(), hosts=load_host_rule(arguments.host), mode=mode)
     make_server(app, arguments.host, arguments.port).run()
 
 

@@ -7,17 +7,25 @@ from contextlib import asynccontextmanager
 from importlib.metadata import version
 from pathlib import Path
 
-from fastapi import FastAPI
+from fastapi import Depends, FastAPI
 from fastapi.routing import APIRoute
 from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddleware
 
 from backend.api import viewer_proxy
+from backend.api.access.callers import open_access
+from backend.api.access.gate import Gate, check_access
+from backend.api.access.headers import SafeHeaders
+from backend.api.access.passwords import Passwords
+from backend.api.access.trail import Trail
 from backend.api.dependencies import Service
 from backend.api.errors import add_error_answers
 from backend.api.hosts import LOCAL, HostRule, OwnHost
 from backend.api.origins import SameOrigin
 from backend.api.pages import BUILT_PAGE, add_pages
 from backend.api.routes import (
+    account,
+    accounts,
+    auth,
     choices,
     compare,
     compare_exports,
@@ -38,6 +46,8 @@ from backend.api.routes import (
 )
 from backend.api.tokens import ViewerTokens, load_secret
 from backend.comparison.memory import ComparisonMemory
+from backend.store.access.audit import forget_old_entries
+from backend.store.access.entry import AccessMode
 from backend.store.database import open_database
 from backend.store.settings import Settings
 from backend.store.storage import FileStorage
@@ -45,17 +55,28 @@ from backend.store.storage import FileStorage
 GZIP_LEVEL = 5
 """Nearly as small as the smallest, several times as fast."""
 
+LARGEST_BODY = 1024 * 1024
+"""Of a request; a route that takes more says so with `max_body_size` [bytes]."""
+
 SMALLEST_GZIP = 1024
 """Shorter answers are sent as they are [bytes]."""
 
 
-def create_app(settings: Settings, page: Path = BUILT_PAGE, hosts: HostRule = LOCAL) -> FastAPI:
+def create_app(
+    settings: Settings,
+    page: Path = BUILT_PAGE,
+    hosts: HostRule = LOCAL,
+    mode: AccessMode = "token",
+    passwords: Passwords | None = None,
+) -> FastAPI:
     """Return the API over one data directory and store; both are opened when it starts to serve.
 
     Args:
         settings: where files and tables lie.
         page: directory of the built page.
         hosts: the names that the server answers to.
+        mode: how people come in.
+        passwords: how passwords are kept; None: as they should be.
     """
     app = FastAPI(
         title="SLDR",
@@ -65,10 +86,14 @@ def create_app(settings: Settings, page: Path = BUILT_PAGE, hosts: HostRule = LO
         docs_url=None,
         redoc_url=None,
         generate_unique_id_function=_operation_id,
-        lifespan=_lifespan(settings),
+        lifespan=_lifespan(settings, mode, passwords),
+        max_body_size=LARGEST_BODY,
     )
     for routes in (
         health,
+        auth,
+        account,
+        accounts,
         choices,
         launches,
         studies,
@@ -87,7 +112,7 @@ def create_app(settings: Settings, page: Path = BUILT_PAGE, hosts: HostRule = LO
         compare_exports,
         viewer_proxy,
     ):
-        app.include_router(routes.router)
+        app.include_router(routes.router, dependencies=[Depends(check_access)])
     add_pages(app, page)
     add_error_answers(app)
     app.add_middleware(
@@ -96,18 +121,25 @@ def create_app(settings: Settings, page: Path = BUILT_PAGE, hosts: HostRule = LO
         compresslevel=GZIP_LEVEL,
         exclude_content_types=(*DEFAULT_EXCLUDED_CONTENT_TYPES, "application/octet-stream"),
     )
+    # The last one is asked first.
+    app.add_middleware(Gate)
     app.add_middleware(SameOrigin)
     app.add_middleware(OwnHost, rule=hosts)
+    app.add_middleware(Trail)
+    app.add_middleware(SafeHeaders)
     return app
 
 
-def _lifespan(settings: Settings):  # noqa: ANN202 - the decorator's type is longer than it helps
+def _lifespan(settings: Settings, mode: AccessMode, passwords: Passwords | None):  # noqa: ANN202 - the decorator's type is longer than it helps
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         database = open_database(settings)
         with viewer_proxy.viser_client() as viser:
-            tokens = ViewerTokens(load_secret(settings.secret_path))
-            app.state.service = Service(settings, database, FileStorage(settings), tokens, viser, ComparisonMemory())
+            secret = load_secret(settings.secret_path)
+            access = open_access(settings, secret, mode, passwords or Passwords())
+            files, memory = FileStorage(settings), ComparisonMemory()
+            app.state.service = Service(settings, database, files, ViewerTokens(secret), viser, memory, access)
+            forget_old_entries(database)
             yield
         database.close()
 

@@ -9,6 +9,7 @@ import httpx
 from fastapi import Depends
 from starlette.requests import HTTPConnection
 
+from backend.api.access.callers import Access, Caller
 from backend.api.tokens import ViewerTokens
 from backend.comparison.memory import ComparisonMemory
 from backend.store.database import Database
@@ -28,6 +29,8 @@ class Service:
     """Fetches pages from the 3D servers on this machine."""
     memory: ComparisonMemory
     """What comparisons keep between two questions."""
+    access: Access
+    """Who comes in."""
 
 
 def get_service(connection: HTTPConnection) -> Service:
@@ -60,9 +63,17 @@ def get_memory(connection: HTTPConnection) -> ComparisonMemory:
     return get_service(connection).memory
 
 
+def get_caller(connection: HTTPConnection) -> Caller:
+    """Return who asks, at a route that nobody else reaches."""
+    caller = connection.scope["state"]["caller"]
+    assert isinstance(caller, Caller)
+    return caller
+
+
 ServiceParts = Annotated[Service, Depends(get_service)]
 Store = Annotated[Database, Depends(get_database)]
 Storage = Annotated[FileStorage, Depends(get_storage)]
 ServiceSettings = Annotated[Settings, Depends(get_settings)]
 Tokens = Annotated[ViewerTokens, Depends(get_tokens)]
 Memory = Annotated[ComparisonMemory, Depends(get_memory)]
+KnownCaller = Annotated[Caller, Depends(get_caller)]

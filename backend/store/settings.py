@@ -48,6 +48,11 @@ class Settings:
         """The key that signs viewer tokens."""
         return self.home / "secret"
 
+    @property
+    def access_token_path(self) -> Path:
+        """The token that opens a server on loopback."""
+        return self.home / "access-token"
+
     def run_directory(self, run_id: str) -> Path:
         """Return the directory of one run; it exists once a worker has begun the run."""
         return self.runs_directory / run_id

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 import schemathesis
 from hypothesis import HealthCheck, Phase, settings
-from live_api import Service, new_client, serving
+from live_api import Service, serving_client
 from schemathesis.checks import (
     content_type_conformance,
     negative_data_rejection,
@@ -41,17 +41,17 @@ described = schemathesis.openapi.from_dict(
 
 
 @pytest.fixture(scope="module")
-def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    """Return where an API listens that holds a run."""
+def described_service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+    """Return an API that holds a run."""
     home = tmp_path_factory.mktemp("described")
     app = create_app(Settings(home=home, database_url=sqlite_url(home)), home / "dist")
-    with pytest.MonkeyPatch.context() as patch, serving(app) as address, new_client(address) as client:
+    with pytest.MonkeyPatch.context() as patch, serving_client(app) as client:
         # Drawing takes seconds and has tests of its own.
         for module in ("backend.api.routes.compare_exports", "backend.figures.bundle"):
             patch.setattr(f"{module}.draw_apart", lambda drawings: [b"drawn"] * len(drawings))
         service = Service(client=client, settings=app.state.service.settings, database=app.state.service.database)
         service.launch(method="her-sldr")
-        yield address
+        yield service
 
 
 @described.parametrize()
@@ -63,5 +63,7 @@ def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     phases=[Phase.explicit, Phase.generate],
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much, HealthCheck.data_too_large],
 )
-def test_every_answer_is_as_the_schema_says(address: str, case: schemathesis.Case):
-    case.call_and_validate(base_url=address, checks=CHECKS)
+def test_every_answer_is_as_the_schema_says(described_service: Service, case: schemathesis.Case):
+    client = described_service.client
+    headers = {"Authorization": client.headers["Authorization"]}
+    case.call_and_validate(base_url=str(client.base_url), checks=CHECKS, headers=headers)

@@ -37,6 +37,8 @@ class View:
     url: str
     socket_url: str
     origin: Origin
+    headers: dict[str, str]
+    """What shows who watches."""
 
 
 @contextmanager
@@ -77,12 +79,14 @@ def open_session(service: Service, port: int) -> View:
     url = service.get(f"/api/viewer-sessions/{session['id']}")["url"]
     address = str(service.client.base_url).rstrip("/")
     socket_url = address.replace("http", "ws") + url.rstrip("/")
-    return View(session["id"], url, socket_url, Origin(address))
+    headers = {"Authorization": service.client.headers["Authorization"]}
+    return View(session["id"], url, socket_url, Origin(address), headers)
 
 
 def dial(view: View, **options: object) -> ClientConnection:
     """Connect as the 3D page does."""
-    given = {"origin": view.origin, "subprotocols": [PROTOCOL], "proxy": None, "max_size": None} | options
+    given = {"origin": view.origin, "subprotocols": [PROTOCOL], "proxy": None, "max_size": None}
+    given |= {"additional_headers": view.headers} | options
     return connect(view.socket_url, **given)  # type: ignore[arg-type]
 
 
