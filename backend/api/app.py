@@ -15,6 +15,7 @@ from backend.api import viewer_proxy
 from backend.api.access.callers import open_access
 from backend.api.access.gate import Gate, check_access
 from backend.api.access.headers import SafeHeaders
+from backend.api.access.large_bodies import LargeBodies
 from backend.api.access.passwords import Passwords
 from backend.api.access.trail import Trail
 from backend.api.dependencies import Service
@@ -61,6 +62,31 @@ LARGEST_BODY = 1024 * 1024
 SMALLEST_GZIP = 1024
 """Shorter answers are sent as they are [bytes]."""
 
+ROUTES = (
+    health,
+    auth,
+    account,
+    accounts,
+    choices,
+    launches,
+    studies,
+    run_actions,
+    labels,
+    run_table,
+    runs,
+    run_files,
+    episodes,
+    media,
+    queue,
+    workers,
+    saved_views,
+    viewer_sessions,
+    compare,
+    compare_exports,
+    viewer_proxy,
+)
+"""What the API answers, in the order in which addresses are compared."""
+
 
 def create_app(
     settings: Settings,
@@ -89,45 +115,28 @@ def create_app(
         lifespan=_lifespan(settings, mode, passwords),
         max_body_size=LARGEST_BODY,
     )
-    for routes in (
-        health,
-        auth,
-        account,
-        accounts,
-        choices,
-        launches,
-        studies,
-        run_actions,
-        labels,
-        run_table,
-        runs,
-        run_files,
-        episodes,
-        media,
-        queue,
-        workers,
-        saved_views,
-        viewer_sessions,
-        compare,
-        compare_exports,
-        viewer_proxy,
-    ):
+    for routes in ROUTES:
         app.include_router(routes.router, dependencies=[Depends(check_access)])
     add_pages(app, page)
     add_error_answers(app)
+    _add_guards(app, hosts)
+    return app
+
+
+def _add_guards(app: FastAPI, hosts: HostRule) -> None:
+    """Put around the routes what every request passes; the last one added is the first to be asked."""
     app.add_middleware(
         GZipMiddleware,
         minimum_size=SMALLEST_GZIP,
         compresslevel=GZIP_LEVEL,
         exclude_content_types=(*DEFAULT_EXCLUDED_CONTENT_TYPES, "application/octet-stream"),
     )
-    # The last one is asked first.
     app.add_middleware(Gate)
     app.add_middleware(SameOrigin)
     app.add_middleware(OwnHost, rule=hosts)
+    app.add_middleware(LargeBodies)
     app.add_middleware(Trail)
     app.add_middleware(SafeHeaders)
-    return app
 
 
 def _lifespan(settings: Settings, mode: AccessMode, passwords: Passwords | None):  # noqa: ANN202 - the decorator's type is longer than it helps

@@ -26,6 +26,9 @@ NOBODY = "nobody"
 REFUSED = frozenset({401, 403, 413, 429})
 """Answers that say that something was not allowed."""
 
+CLOSED_UNOPENED = 403
+"""How a websocket that is closed before it was accepted looks to a browser."""
+
 ONCE_PER_S = 60.0
 """The same refusal of the same caller is written once in this time [s]."""
 
@@ -43,28 +46,35 @@ class Trail:
         self._told = RecentlyTold()
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Answer as the app does, then write."""
+        """Answer as the app does; what belongs into the log is there before the answer is sent."""
         if scope["type"] == "lifespan":
             await self._app(scope, receive, send)
             return
-        status = 0
+        is_open = False
 
-        async def note(message: Message) -> None:
-            nonlocal status
-            if message["type"] in ("http.response.start", "websocket.http.response.start"):
-                status = message["status"]
-            elif message["type"] == "websocket.close" and status == 0:
-                status = 403  # Closed before it was accepted: that is how a refusal looks to a browser.
-            elif message["type"] == "websocket.accept":
-                status = 101
+        async def write_first(message: Message) -> None:
+            nonlocal is_open
+            status = _status_of(message, is_open)
+            is_open = is_open or message["type"] == "websocket.accept"
+            if status is not None:
+                await self._write(scope, status)
             await send(message)
 
-        try:
-            await self._app(scope, receive, note)
-        finally:
-            deed = describe(scope, status)
-            if deed is not None and (deed.outcome != "refused" or self._told.is_news(deed)):
-                await run_in_threadpool(record, scope["app"].state.service.database, deed)
+        await self._app(scope, receive, write_first)
+
+    async def _write(self, scope: Scope, status: int) -> None:
+        deed = describe(scope, status)
+        if deed is not None and (deed.outcome != "refused" or self._told.is_news(deed)):
+            await run_in_threadpool(record, scope["app"].state.service.database, deed)
+
+
+def _status_of(message: Message, is_open: bool) -> int | None:
+    """Return the status with which a request is answered, if this message is its answer's beginning."""
+    if message["type"] in ("http.response.start", "websocket.http.response.start"):
+        return message["status"]
+    if message["type"] == "websocket.close" and not is_open:
+        return CLOSED_UNOPENED
+    return None
 
 
 class RecentlyTold:
