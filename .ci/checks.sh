@@ -3,7 +3,7 @@
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-every=(lint format imports types client audit web-check web-test pytest)
+every=(lint format imports types client web-check web-test pytest)
 wanted=("$@")
 [[ ${*:-all} != all ]] || wanted=("${every[@]}")
 client="web/src/client/schema.gen.ts"
@@ -12,7 +12,6 @@ check_lint() { .venv/bin/ruff check; }
 check_format() { .venv/bin/ruff format --check; }
 check_imports() { .venv/bin/lint-imports; }
 check_types() { .venv/bin/pyright; }
-check_audit() { .ci/audit.sh; }
 check_web-check() { npm --prefix web run --silent check; }
 check_web-test() { npm --prefix web run --silent test; }
 

@@ -15,13 +15,11 @@ from backend.api.access.callers import Caller
 from backend.api.access.declarations import declaration_of
 from backend.api.access.redaction import redact
 from backend.store.access.audit import Deed, Outcome, write_entry
+from backend.store.access.entry import NOBODY
 from backend.store.database import Database
 from backend.store.errors import StoreUnavailable
 
 log = logging.getLogger("sldr.audit")
-
-NOBODY = "nobody"
-"""Stands for whoever is not known."""
 
 REFUSED = frozenset({401, 403, 413, 429})
 """Answers that say that something was not allowed."""

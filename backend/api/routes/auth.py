@@ -8,11 +8,11 @@ from typing import Annotated
 from fastapi import APIRouter, Query, Request, Response
 from fastapi.responses import RedirectResponse
 
-from backend.api.access.callers import LOCAL_NAME, Caller, is_local_token
+from backend.api.access.callers import Caller, is_local_token
 from backend.api.access.declarations import needs, open_to_all
 from backend.api.access.gate import caller_or_refusal
 from backend.api.access.passwords import find_weakness
-from backend.api.access.trail import NOBODY, client_address, record
+from backend.api.access.trail import client_address, record
 from backend.api.access_schemas import (
     CallerInfo,
     InvitationAccept,
@@ -26,6 +26,7 @@ from backend.api.dependencies import KnownCaller, Service, ServiceParts
 from backend.api.errors import ApiError, problem_responses
 from backend.store.access import accounts, invitations, login_sessions
 from backend.store.access.audit import Deed, Outcome
+from backend.store.access.entry import LOCAL_NAME, NOBODY
 from backend.store.errors import Refused
 
 router = APIRouter(prefix="/api/auth", tags=["access"])
