@@ -9,6 +9,7 @@ from pathlib import Path
 
 from fastapi import Depends, FastAPI
 from fastapi.routing import APIRoute
+from starlette.middleware.body_limit import RequestBodyLimitMiddleware
 from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddleware
 
 from backend.api import viewer_proxy
@@ -113,7 +114,6 @@ def create_app(
         redoc_url=None,
         generate_unique_id_function=_operation_id,
         lifespan=_lifespan(settings, mode, passwords),
-        max_body_size=LARGEST_BODY,
     )
     for routes in ROUTES:
         app.include_router(routes.router, dependencies=[Depends(check_access)])
@@ -134,6 +134,7 @@ def _add_guards(app: FastAPI, hosts: HostRule) -> None:
     app.add_middleware(Gate)
     app.add_middleware(SameOrigin)
     app.add_middleware(OwnHost, rule=hosts)
+    app.add_middleware(RequestBodyLimitMiddleware, max_body_size=LARGEST_BODY)
     app.add_middleware(LargeBodies)
     app.add_middleware(Trail)
     app.add_middleware(SafeHeaders)
