@@ -78,7 +78,9 @@ PICTURES = (
         "stack2", "FetchPickAndPlace", "FetchStack2", "value of doing something else", step=1, number=1, part="block 2"
     ),
     Picture("tuple5", "FetchTuple5", "FetchTuple5", "value of doing something else", step=6),
+    # HandBlockFull is rewarded by two models, one for the turn and one for the place.
     Picture("block-rotate", "HandBlockRotate", "HandBlockRotate", "value of being turned otherwise", step=6),
+    Picture("block-translate", "HandBlockTranslate", "HandBlockTranslate", "value of being elsewhere", step=6),
 )
 
 
