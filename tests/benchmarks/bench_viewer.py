@@ -95,10 +95,9 @@ def measure(host: Host, database: Database, run_id: str) -> str:
         memory = process.memory_full_info().uss / 2**20
     viewer_sessions.mark_ended(database, session.id)
     host.tick()
-    return (
-        f"open in {opening_s:.2f} s, {seen.rate:.1f} updates/s while it moves, "
-        f"{1000 * cpu_s / seen.updates:.1f} ms of CPU each, {100 * cpu_s / seen.seconds:.0f} % of a core, {memory:.0f} MiB of its own"
-    )
+    moved = f"{seen.rate:.1f} updates/s while it moves, {1000 * cpu_s / seen.updates:.1f} ms of CPU each"
+    cost = f"{100 * cpu_s / seen.seconds:.0f} % of a core, {memory:.0f} MiB of its own"
+    return f"open in {opening_s:.2f} s, {moved}, {cost}"
 
 
 def cpu_seconds(process: psutil.Process) -> float:

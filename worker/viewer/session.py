@@ -91,14 +91,12 @@ def open_session(job: Job, port: int = 0) -> Session:
     return session
 
 
-def serve(job: Job, host: Connection) -> None:
-    """Open a session, tell the host, and run it for ever.
+def serve(session: Session, host: Connection) -> None:
+    """Tell the host that a session is open, and run it for ever.
 
     Raises:
-        SldrError: what it needs cannot be used.
         BrokenPipeError: the host is gone.
     """
-    session = open_session(job)
     host.send(Ready(session.port, session.show.message, session.control.port))
     watch(session, lambda clients: host.send(Watched(clients)))
 
