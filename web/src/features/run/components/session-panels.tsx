@@ -61,7 +61,9 @@ export function SessionPanels({ viewing, words, hasPolicy, onAgain, children, ch
     );
   }
   if (!hasPolicy) {
-    return <SentencePanel title={words.missing}>The first is saved after the first test of the training.</SentencePanel>;
+    return (
+      <SentencePanel title={words.missing}>The first is saved after the first test of the training.</SentencePanel>
+    );
   }
   return choice;
 }
