@@ -57,6 +57,10 @@ class ActingScene:
         """Take everything out of the page."""
         self._view.root.remove()
 
+    def poses(self, qpos: Array) -> Poses:
+        """Return where every body of the scene is, from joint positions `[P, nq]` of the acting one."""
+        return self._kinematics.poses(self._whole(qpos))
+
     def poses_between(self, qpos: Array, later: Array, share: float) -> Poses:
         """Return where every body of the scene is, a share of the way between joint positions `[P, nq]`."""
         return self._kinematics.poses_between(self._whole(qpos), self._whole(later), share)
