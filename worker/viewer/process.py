@@ -15,7 +15,7 @@ from worker.mortality import end_with_parent
 from worker.viewer.reports import Broken, Job
 
 OPENING_NICENESS = 5
-"""While a view is opened a person waits for it."""
+"""Until its page is loaded a person waits for a view."""
 
 NICENESS = 15
 """Watching gives way to training: a view gets about a thirtieth of a core that a training keeps busy."""
@@ -31,12 +31,10 @@ def serve_session(job: Job, host: Connection) -> None:
         # PyTorch takes seconds to import where it was not beforehand: only once the process is mortal.
         import torch
 
-        from worker.viewer.session import open_session, serve
+        from worker.viewer.session import serve
 
         torch.set_num_threads(1)
-        session = open_session(job)
-        _give_way()
-        serve(session, host)
+        serve(job, host, watched=_give_way)
     except BrokenPipeError:
         raise SystemExit(1) from None
     except SldrError as err:

@@ -91,14 +91,22 @@ def open_session(job: Job, port: int = 0) -> Session:
     return session
 
 
-def serve(session: Session, host: Connection) -> None:
-    """Tell the host that a session is open, and run it for ever.
+def serve(job: Job, host: Connection, watched: Callable[[], None]) -> None:
+    """Open a session, tell the host, and run it for ever; call `watched` whenever a page has been loaded.
 
     Raises:
+        SldrError: what it needs cannot be used.
         BrokenPipeError: the host is gone.
     """
+    session = open_session(job)
     host.send(Ready(session.port, session.show.message, session.control.port))
-    watch(session, lambda clients: host.send(Watched(clients)))
+
+    def tell(clients: int) -> None:
+        host.send(Watched(clients))
+        if clients > 0:
+            watched()
+
+    watch(session, tell)
 
 
 def watch(session: Session, tell: Callable[[int], None] = lambda clients: None) -> None:
