@@ -80,6 +80,7 @@ PRESETS: dict[str, Preset] = {
                 "loop": {
                     "epochs": 10,
                     "cycles_per_epoch": 10,
+                    "collecting": "beside",
                     "updates_per_sync": 4,
                     "batch_size": 1024,
                     "test_episodes": 114,
