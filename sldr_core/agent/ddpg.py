@@ -16,6 +16,7 @@ from torch.nn.utils import get_total_norm
 
 from sldr_core.agent.losses import actor_loss, critic_losses, lowest_return, td_target
 from sldr_core.config import AgentConfig
+from sldr_core.nets.adam import Adam
 from sldr_core.nets.mlp import Mlp, MlpStack
 from sldr_core.nets.normalizer import Drift, Normalizer
 from sldr_core.nets.transitions import Transitions
@@ -57,8 +58,8 @@ class DdpgAgent:
         self._target_critics = deepcopy(self.critics).requires_grad_(False)
         self._weights = torch.tensor(stream_weights, device=device)
         self._lowest = torch.tensor(_lowest_targets(config, len(self._streams)), device=device)
-        self._actor_optimiser = torch.optim.Adam(self.actor.parameters(), lr=config.learning_rate, fused=True)
-        self._critic_optimiser = torch.optim.Adam(self.critics.parameters(), lr=config.learning_rate, fused=True)
+        self._actor_optimiser = Adam(self.actor.parameters(), lr=config.learning_rate, fused=True)
+        self._critic_optimiser = Adam(self.critics.parameters(), lr=config.learning_rate, fused=True)
 
     def features(self, obs: Tensor, goal: Tensor) -> Tensor:
         """Return normalised features `[..., F]`."""
