@@ -9,6 +9,7 @@ from fastapi import FastAPI
 
 from backend.api.app import create_app
 from backend.api.hosts import load_host_rule
+from backend.api.server_mark import local_url, marked
 from backend.store.settings import load_settings
 
 LARGEST_MESSAGE = 64 * 1024 * 1024
@@ -38,8 +39,10 @@ def main() -> None:
     parser.add_argument("--host", default="127.0.0.1", help="address to listen on")
     parser.add_argument("--port", type=int, default=8000, help="port to listen on")
     arguments = parser.parse_args()
-    app = create_app(load_settings(), hosts=load_host_rule(arguments.host))
-    make_server(app, arguments.host, arguments.port).run()
+    settings = load_settings()
+    app = create_app(settings, hosts=load_host_rule(arguments.host))
+    with marked(settings, local_url(arguments.host, arguments.port)):
+        make_server(app, arguments.host, arguments.port).run()
 
 
 if __name__ == "__main__":

@@ -48,6 +48,11 @@ class Settings:
         """The key that signs viewer tokens."""
         return self.home / "secret"
 
+    @property
+    def server_file(self) -> Path:
+        """The address of the service that runs over this directory, which locks the file meanwhile."""
+        return self.home / "server-address"
+
     def run_directory(self, run_id: str) -> Path:
         """Return the directory of one run; it exists once a worker has begun the run."""
         return self.runs_directory / run_id
