@@ -10,6 +10,7 @@ from fastapi import FastAPI
 from backend.api.app import create_app
 from backend.api.hosts import load_host_rule
 from backend.api.server_mark import local_url, marked
+from backend.logs import load_style, start_logging
 from backend.store.settings import load_settings
 
 LARGEST_MESSAGE = 64 * 1024 * 1024
@@ -40,6 +41,7 @@ def main() -> None:
     parser.add_argument("--port", type=int, default=8000, help="port to listen on")
     arguments = parser.parse_args()
     settings = load_settings()
+    start_logging("api", settings.logs_directory, load_style())
     app = create_app(settings, hosts=load_host_rule(arguments.host))
     with marked(settings, local_url(arguments.host, arguments.port)):
         make_server(app, arguments.host, arguments.port).run()

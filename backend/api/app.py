@@ -9,6 +9,7 @@ from pathlib import Path
 
 from fastapi import FastAPI
 from fastapi.routing import APIRoute
+from prometheus_client import CollectorRegistry
 from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddleware
 
 from backend.api import viewer_proxy
@@ -17,6 +18,7 @@ from backend.api.errors import add_error_answers
 from backend.api.hosts import LOCAL, HostRule, OwnHost
 from backend.api.origins import SameOrigin
 from backend.api.pages import BUILT_PAGE, add_pages
+from backend.api.request_meter import RequestMeter, make_latencies
 from backend.api.routes import (
     choices,
     compare,
@@ -26,6 +28,7 @@ from backend.api.routes import (
     labels,
     launches,
     media,
+    monitoring,
     queue,
     run_actions,
     run_files,
@@ -57,6 +60,7 @@ def create_app(settings: Settings, page: Path = BUILT_PAGE, hosts: HostRule = LO
         page: directory of the built page.
         hosts: the names that the server answers to.
     """
+    registry = CollectorRegistry()
     app = FastAPI(
         title="SLDR",
         summary="Train robot manipulation with sparse rewards.",
@@ -65,10 +69,11 @@ def create_app(settings: Settings, page: Path = BUILT_PAGE, hosts: HostRule = LO
         docs_url=None,
         redoc_url=None,
         generate_unique_id_function=_operation_id,
-        lifespan=_lifespan(settings),
+        lifespan=_lifespan(settings, registry),
     )
     for routes in (
         health,
+        monitoring,
         choices,
         launches,
         studies,
@@ -98,16 +103,19 @@ def create_app(settings: Settings, page: Path = BUILT_PAGE, hosts: HostRule = LO
     )
     app.add_middleware(SameOrigin)
     app.add_middleware(OwnHost, rule=hosts)
+    app.add_middleware(RequestMeter, latencies=make_latencies(registry))
     return app
 
 
-def _lifespan(settings: Settings):  # noqa: ANN202 - the decorator's type is longer than it helps
+def _lifespan(settings: Settings, registry: CollectorRegistry):  # noqa: ANN202 - the decorator's type is longer than it helps
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         database = open_database(settings)
         with viewer_proxy.viser_client() as viser:
             tokens = ViewerTokens(load_secret(settings.secret_path))
-            app.state.service = Service(settings, database, FileStorage(settings), tokens, viser, ComparisonMemory())
+            app.state.service = Service(
+                settings, database, FileStorage(settings), tokens, viser, ComparisonMemory(), registry
+            )
             yield
         database.close()
 

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import httpx
 from fastapi import Depends
+from prometheus_client import CollectorRegistry
 from starlette.requests import HTTPConnection
 
 from backend.api.tokens import ViewerTokens
@@ -28,6 +29,8 @@ class Service:
     """Fetches pages from the 3D servers on this machine."""
     memory: ComparisonMemory
     """What comparisons keep between two questions."""
+    registry: CollectorRegistry
+    """What this process counts for a monitor."""
 
 
 def get_service(connection: HTTPConnection) -> Service:

@@ -25,6 +25,7 @@ COMMANDS = {
     "backup": "Copy all runs and their files to one place, while everything runs.",
     "restore": "Bring back what backup has copied.",
     "list": "List tasks, methods or presets.",
+    "doctor": "See whether everything here works, and how to mend what does not.",
 }
 
 BAD_INPUT = 2

@@ -18,7 +18,11 @@ class Health:
     status: str
     """`ok`, or `degraded` without a worker or viewer."""
     version: str
+    store: str
+    """The database that answers: `sqlite` or `postgresql`."""
+    schema_revision: str
     workers_alive: int
+    worker_seen_at: datetime | None
     viewer_alive: bool
 
 
