@@ -29,7 +29,9 @@ from backend.api.routes import (
     launches,
     media,
     monitoring,
+    notices,
     queue,
+    retention,
     run_actions,
     run_files,
     run_table,
@@ -44,6 +46,7 @@ from backend.comparison.memory import ComparisonMemory
 from backend.store.database import open_database
 from backend.store.settings import Settings
 from backend.store.storage import FileStorage
+from backend.webhooks.sender import Sender
 
 GZIP_LEVEL = 5
 """Nearly as small as the smallest, several times as fast."""
@@ -87,6 +90,8 @@ def create_app(settings: Settings, page: Path = BUILT_PAGE, hosts: HostRule = LO
         queue,
         workers,
         saved_views,
+        notices,
+        retention,
         viewer_sessions,
         compare,
         compare_exports,
@@ -113,10 +118,13 @@ def _lifespan(settings: Settings, registry: CollectorRegistry):  # noqa: ANN202 
         database = open_database(settings)
         with viewer_proxy.viser_client() as viser:
             tokens = ViewerTokens(load_secret(settings.secret_path))
+            sender = Sender(database, settings.local_webhooks)
+            sender.start()
             app.state.service = Service(
-                settings, database, FileStorage(settings), tokens, viser, ComparisonMemory(), registry
+                settings, database, FileStorage(settings), tokens, viser, ComparisonMemory(), registry, sender
             )
             yield
+            sender.stop()
         database.close()
 
     return lifespan

@@ -15,6 +15,7 @@ from backend.comparison.memory import ComparisonMemory
 from backend.store.database import Database
 from backend.store.settings import Settings
 from backend.store.storage import FileStorage
+from backend.webhooks.sender import Sender
 
 
 @dataclass(frozen=True)
@@ -31,6 +32,8 @@ class Service:
     """What comparisons keep between two questions."""
     registry: CollectorRegistry
     """What this process counts for a monitor."""
+    sender: Sender
+    """Tells other services what has ended."""
 
 
 def get_service(connection: HTTPConnection) -> Service:

@@ -19,12 +19,12 @@ export function WaysIn({ command, script }: Props) {
 
 function Text({ label, text }: { label: string; text: string }) {
   return (
-    <div>
+    <section aria-label={label.replace('Copy as', 'As')}>
       <CopyButton text={text} label={label} />
       {/* biome-ignore lint/a11y/noNoninteractiveTabindex: long lines are scrolled by keyboard. */}
-      <pre className={classes.text} tabIndex={0} aria-label={label.replace('Copy as', 'As')}>
+      <pre className={classes.text} tabIndex={0}>
         {text}
       </pre>
-    </div>
+    </section>
   );
 }
