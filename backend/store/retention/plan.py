@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime, timedelta
 from pathlib import Path
 from typing import Literal
 
-from sqlalchemy import Connection, exists, select
+from sqlalchemy import Connection, select
 
 from backend.store.database import Database, current_time
 from backend.store.files import FileRow
@@ -85,29 +86,38 @@ def plan_retention(db: Database, settings: Settings, rule: Rule) -> RetentionPla
     with db.read() as conn:
         at = current_time(conn)
         ended = conn.execute(select(runs).where(runs.c.state.in_(ENDED)).order_by(runs.c.number)).all()
-        spared: dict[Spared, int] = {"young": 0, "kept": 0, "needed": 0}
-        losing: list[AnyRow] = []
-        for row in ended:
-            why = why_spared(conn, row, rule, at)
-            if why is None:
-                losing.append(row)
-            else:
-                spared[why] += 1
-        shares = [_share(conn, settings, row, rule, shared) for row in losing]
+        protected = find_protected(conn)
+        old = [row for row in ended if is_old_enough(row.ended_at, rule, at)]
+        shares = [_share(conn, settings, row, rule, shared) for row in old if row.id not in protected]
+    why = Counter(protected[row.id] for row in old if row.id in protected)
+    spared: dict[Spared, int] = {"young": len(ended) - len(old), "kept": why["kept"], "needed": why["needed"]}
     found = [share for share in shares if share.files]
     return RetentionPlan(rule, sorted(found, key=lambda share: -share.size), spared)
 
 
-def why_spared(conn: Connection, row: AnyRow, rule: Rule, at: datetime) -> Spared | None:
-    """Return why an ended run loses nothing, or None if it may lose files."""
-    if row.ended_at is None or row.ended_at > at - timedelta(days=rule.older_than_days):
-        return "young"
-    if conn.execute(select(exists().where(run_tags.c.run_id == row.id, run_tags.c.tag.in_(KEEP_TAGS)))).scalar_one():
-        return "kept"
-    dependent = exists().where(
-        run_needs.c.needs_run_id == row.id, runs.c.id == run_needs.c.run_id, runs.c.deleted_at.is_(None)
+def find_protected(conn: Connection, run_ids: Sequence[str] | None = None) -> dict[str, Spared]:
+    """Return the runs that lose nothing however old they are, by id.
+
+    Args:
+        run_ids: the runs in question; all if None.
+    """
+    dependent = runs.alias("dependent")
+    needed = (
+        select(run_needs.c.needs_run_id)
+        .join(dependent, dependent.c.id == run_needs.c.run_id)
+        .where(dependent.c.deleted_at.is_(None))
     )
-    return "needed" if conn.execute(select(dependent)).scalar_one() else None
+    kept = select(run_tags.c.run_id).where(run_tags.c.tag.in_(KEEP_TAGS))
+    if run_ids is not None:
+        needed = needed.where(run_needs.c.needs_run_id.in_(run_ids))
+        kept = kept.where(run_tags.c.run_id.in_(run_ids))
+    found: dict[str, Spared] = dict.fromkeys(conn.execute(needed).scalars(), "needed")
+    return found | dict.fromkeys(conn.execute(kept).scalars(), "kept")
+
+
+def is_old_enough(ended_at: datetime | None, rule: Rule, at: datetime) -> bool:
+    """Tell whether a run ended long enough before a time."""
+    return ended_at is not None and ended_at <= at - timedelta(days=rule.older_than_days)
 
 
 def _share(conn: Connection, settings: Settings, row: AnyRow, rule: Rule, shared: bool) -> RunShare:

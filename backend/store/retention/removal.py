@@ -17,7 +17,7 @@ from backend.store.blocks import read_block_list
 from backend.store.database import Database, current_time
 from backend.store.errors import FilesUnavailable
 from backend.store.files import REPLAY_LIST, find_file
-from backend.store.retention.plan import SHARED, Doomed, RetentionPlan, RunShare, why_spared
+from backend.store.retention.plan import SHARED, Doomed, RetentionPlan, RunShare, find_protected, is_old_enough
 from backend.store.retention.rule import Rule
 from backend.store.settings import Settings
 from backend.store.states import ENDED
@@ -66,7 +66,9 @@ def _mark(db: Database, rule: Rule, share: RunShare, blocks: Sequence[Doomed]) -
     with db.write() as conn:
         row = conn.execute(select(runs).where(runs.c.id == share.run_id).with_for_update()).one()
         at = current_time(conn)
-        if row.state not in ENDED or row.fence != share.fence or why_spared(conn, row, rule, at) is not None:
+        if row.state not in ENDED or row.fence != share.fence or not is_old_enough(row.ended_at, rule, at):
+            return
+        if find_protected(conn, [row.id]):
             return
         names = [file.name for file in share.files if file.is_registered]
         conn.execute(delete(run_files).where(run_files.c.run_id == row.id, run_files.c.name.in_(names)))
