@@ -8,21 +8,21 @@ from typing import Annotated
 from pydantic import Field
 
 from backend.api.schemas import Strict
-from backend.store.retention.rule import LONGEST_DAYS, Kind
+from backend.store.retention.rule import LONGEST_DAYS, Removable
 
 
 class RetentionRule(Strict):
     """What may go, and of which runs."""
 
     # JSON has no enums: the word is taken for one, and nothing else is.
-    kinds: Annotated[list[Annotated[Kind, Field(strict=False)]], Field(min_length=1, max_length=len(Kind))]
+    kinds: Annotated[list[Annotated[Removable, Field(strict=False)]], Field(min_length=1, max_length=len(Removable))]
     older_than_days: int = Field(ge=0, le=LONGEST_DAYS, description="Spare runs that ended later.")
 
 
-class RetentionKind(Strict):
+class RemovableSum(Strict):
     """How much of one kind would go."""
 
-    kind: Kind
+    kind: Removable
     files: int
     size: int = Field(description="In bytes.")
 
@@ -44,7 +44,7 @@ class RetentionRun(Strict):
 class RetentionPreview(Strict):
     """All that a rule would remove."""
 
-    kinds: list[RetentionKind]
+    kinds: list[RemovableSum]
     runs: list[RetentionRun] = Field(description="Those with the largest share, the largest first.")
     total_runs: int = Field(description="Runs that would lose something.")
     size: int = Field(description="Of everything, in bytes.")

@@ -50,7 +50,7 @@ def take_census(db: Database) -> Census:
     )
 
 
-def _queued_since() -> Select[tuple[datetime | None]]:
+def _queued_since() -> Select[datetime | None]:
     """Ask when the run that has waited longest for a worker came into the queue: its newest event brought it there."""
     newest = (
         select(func.max(run_events.c.at).label("at"))

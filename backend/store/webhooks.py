@@ -88,9 +88,10 @@ def add_webhook(db: Database, url: str, events: Sequence[str]) -> Webhook:
         if conn.execute(select(func.count()).select_from(webhooks)).scalar_one() >= MOST_WEBHOOKS:
             raise Refused(f"There are {MOST_WEBHOOKS} webhooks already; remove one first.")
         at = current_time(conn)
-        values = {"id": _new_id(), "url": url, "secret": secrets.token_hex(32), "events": list(events)}
-        conn.execute(insert(webhooks).values(**values, created_at=at))
-    return Webhook(values["id"], url, values["secret"], tuple(events), at)
+        added = Webhook(_new_id(), url, secrets.token_hex(32), tuple(events), at)
+        values = {"id": added.id, "url": url, "secret": added.secret, "events": list(events), "created_at": at}
+        conn.execute(insert(webhooks).values(**values))
+    return added
 
 
 def list_webhooks(db: Database) -> list[Webhook]:

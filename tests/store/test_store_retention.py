@@ -24,13 +24,13 @@ from backend.store.queue import finish
 from backend.store.retention import removal
 from backend.store.retention.plan import find_protected, is_old_enough, plan_retention
 from backend.store.retention.removal import apply_retention, finish_removals
-from backend.store.retention.rule import Kind, Rule, kind_of
+from backend.store.retention.rule import Removable, Rule, kind_of
 from backend.store.settings import Settings
 from backend.store.storage import FileStorage, checksum
 from backend.store.tables import runs
 
-EVERYTHING = Rule(frozenset(Kind), 0)
-REPLAY = Rule(frozenset({Kind.REPLAY}), 0)
+EVERYTHING = Rule(frozenset(Removable), 0)
+REPLAY = Rule(frozenset({Removable.REPLAY}), 0)
 WRITTEN = {
     "checkpoint.pt": "checkpoint",
     "policy-newest.pt": "policy",
@@ -80,7 +80,7 @@ def test_a_preview_names_everything_and_changes_nothing(db: Database, settings: 
     (share,) = plan.runs
     going = {file.name for file in share.files}
     assert going == (set(WRITTEN) - STAYING) | {REPLAY_FILE, "checkpoint-previous.pt"}
-    count, size = plan.totals()[Kind.EPISODES]
+    count, size = plan.totals()[Removable.EPISODES]
     assert (count, size) == (1, len("episodes-00001.npz") * 100)
     assert share.size == sum(file.size for file in share.files)
     assert (names(directory), list_files(db, run_id)) == before

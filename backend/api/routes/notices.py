@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from datetime import UTC, datetime
-from typing import Annotated
+from typing import Annotated, Any
 
 from fastapi import APIRouter, Query
 from pydantic import AwareDatetime
@@ -69,7 +69,7 @@ def test_webhook(webhook_id: str, service: ServiceParts) -> Delivery:
     return _delivery(added)
 
 
-def _fields(webhook: webhooks.Webhook) -> dict[str, object]:
+def _fields(webhook: webhooks.Webhook) -> dict[str, Any]:
     return {
         "id": webhook.id,
         "url": webhook.url,

@@ -9,7 +9,7 @@ from fastapi import APIRouter, Query
 from backend.api.dependencies import ServiceSettings, Store
 from backend.api.errors import problem_responses
 from backend.api.retention_schemas import (
-    RetentionKind,
+    RemovableSum,
     RetentionPreview,
     RetentionRemoved,
     RetentionRule,
@@ -17,7 +17,7 @@ from backend.api.retention_schemas import (
 )
 from backend.store.retention.plan import RetentionPlan, plan_retention
 from backend.store.retention.removal import apply_retention
-from backend.store.retention.rule import LONGEST_DAYS, Kind, Rule
+from backend.store.retention.rule import LONGEST_DAYS, Removable, Rule
 
 SHOWN_RUNS = 200
 """Runs in one answer at most, those with the largest share first."""
@@ -29,7 +29,7 @@ router = APIRouter(prefix="/api/retention", tags=["retention"])
 def preview_retention(
     store: Store,
     settings: ServiceSettings,
-    kind: Annotated[list[Kind], Query(min_length=1, max_length=len(Kind), description="What may go.")],
+    kind: Annotated[list[Removable], Query(min_length=1, max_length=len(Removable), description="What may go.")],
     older_than_days: Annotated[int, Query(ge=0, le=LONGEST_DAYS, description="Spare runs that ended later.")] = 30,
 ) -> RetentionPreview:
     """Tell what a rule would remove of ended runs; remove nothing."""
@@ -46,7 +46,7 @@ def apply_retention_rule(rule: RetentionRule, store: Store, settings: ServiceSet
 
 def _preview(plan: RetentionPlan) -> RetentionPreview:
     return RetentionPreview(
-        kinds=[RetentionKind(kind=kind, files=files, size=size) for kind, (files, size) in plan.totals().items()],
+        kinds=[RemovableSum(kind=kind, files=files, size=size) for kind, (files, size) in plan.totals().items()],
         runs=[
             RetentionRun(
                 run_id=share.run_id,

@@ -13,7 +13,7 @@ from sqlalchemy import Connection, select
 
 from backend.store.database import Database, current_time
 from backend.store.files import FileRow
-from backend.store.retention.rule import KEEP_TAGS, Kind, Rule, kind_of, unregistered
+from backend.store.retention.rule import KEEP_TAGS, Removable, Rule, kind_of, unregistered
 from backend.store.settings import Settings
 from backend.store.states import ENDED
 from backend.store.storage import FileStorage
@@ -27,7 +27,7 @@ Spared = Literal["young", "kept", "needed"]
 class Doomed:
     """One file that may go."""
 
-    kind: Kind
+    kind: Removable
     name: str
     place: str
     """Where it lies: below the data directory, or with `SHARED` before it at the place that machines share."""
@@ -67,7 +67,7 @@ class RetentionPlan:
     spared: Mapping[Spared, int]
     """Ended runs that lose nothing, by why."""
 
-    def totals(self) -> dict[Kind, tuple[int, int]]:
+    def totals(self) -> dict[Removable, tuple[int, int]]:
         """Return how many files of each kind would go, and their length [bytes]."""
         files = [file for share in self.runs for file in share.files]
         return {
@@ -159,4 +159,4 @@ def _left(settings: Settings, run_id: str, name: str) -> Doomed | None:
         return None
     place = str(path.relative_to(settings.home))
     # What is on the disk counts: a replay file is as long as it may become from its first day on.
-    return Doomed(Kind.REPLAY, name, place, path.stat().st_blocks * 512, is_registered=False)
+    return Doomed(Removable.REPLAY, name, place, path.stat().st_blocks * 512, is_registered=False)

@@ -21,7 +21,7 @@ LEFT_CHECKPOINTS = ("checkpoint-previous.pt", "checkpoint-damaged.pt")
 _EPOCH_POLICY = re.compile(r"policy-epoch-\d+\.pt")
 
 
-class Kind(StrEnum):
+class Removable(StrEnum):
     """What can go."""
 
     REPLAY = "replay"
@@ -36,12 +36,12 @@ class Kind(StrEnum):
     """Rerun files; they can be made again from the store."""
 
 
-KIND_WORDS: Mapping[Kind, str] = {
-    Kind.REPLAY: "replay files and checkpoints (a failed or cancelled run then begins anew when it is tried again)",
-    Kind.POLICIES: "policies of single epochs (the newest and the best stay)",
-    Kind.EPISODES: "recorded test episodes",
-    Kind.VIDEOS: "videos",
-    Kind.RECORDINGS: "Rerun files (they can be made again)",
+KIND_WORDS: Mapping[Removable, str] = {
+    Removable.REPLAY: "replay files and checkpoints (a failed or cancelled run then begins anew when it is tried again)",
+    Removable.POLICIES: "policies of single epochs (the newest and the best stay)",
+    Removable.EPISODES: "recorded test episodes",
+    Removable.VIDEOS: "videos",
+    Removable.RECORDINGS: "Rerun files (they can be made again)",
 }
 """Each kind for a person."""
 
@@ -50,12 +50,12 @@ KIND_WORDS: Mapping[Kind, str] = {
 class Rule:
     """Say what may go, and of which runs."""
 
-    kinds: frozenset[Kind]
+    kinds: frozenset[Removable]
     older_than_days: int
     """Only of runs that ended at least so many days ago."""
 
 
-def kind_of(name: str, kind: str) -> Kind | None:
+def kind_of(name: str, kind: str) -> Removable | None:
     """Return what a registered file is among what can go; None if it stays whatever the rule.
 
     Args:
@@ -63,12 +63,12 @@ def kind_of(name: str, kind: str) -> Kind | None:
         kind: the kind that its row says.
     """
     if kind == CHECKPOINT_KIND or name == REPLAY_LIST:
-        return Kind.REPLAY
+        return Removable.REPLAY
     if kind == "policy" and _EPOCH_POLICY.fullmatch(name):
-        return Kind.POLICIES
-    return {EPISODES_KIND: Kind.EPISODES, "video": Kind.VIDEOS, "recording": Kind.RECORDINGS}.get(kind)
+        return Removable.POLICIES
+    return {EPISODES_KIND: Removable.EPISODES, "video": Removable.VIDEOS, "recording": Removable.RECORDINGS}.get(kind)
 
 
 def unregistered(rule: Rule) -> tuple[str, ...]:
     """Return the names of files in a run's directory that no row holds and that a rule lets go."""
-    return (REPLAY_FILE, *LEFT_CHECKPOINTS) if Kind.REPLAY in rule.kinds else ()
+    return (REPLAY_FILE, *LEFT_CHECKPOINTS) if Removable.REPLAY in rule.kinds else ()

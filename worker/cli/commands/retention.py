@@ -11,7 +11,7 @@ import tyro
 from backend.store.database import open_database
 from backend.store.retention.plan import RetentionPlan, plan_retention
 from backend.store.retention.removal import apply_retention
-from backend.store.retention.rule import KIND_WORDS, LONGEST_DAYS, Kind, Rule
+from backend.store.retention.rule import KIND_WORDS, LONGEST_DAYS, Removable, Rule
 from backend.store.settings import load_settings
 from sldr_core.errors import InvalidConfig, UnknownName
 
@@ -56,12 +56,12 @@ def retention(
     return 0
 
 
-def _kinds(names: Sequence[str]) -> frozenset[Kind]:
-    known = [kind.value for kind in Kind]
+def _kinds(names: Sequence[str]) -> frozenset[Removable]:
+    known = [kind.value for kind in Removable]
     for name in names:
         if name not in known:
             raise UnknownName("kind of file", name, known)
-    return frozenset(Kind(name) for name in names or (Kind.REPLAY.value,))
+    return frozenset(Removable(name) for name in names or (Removable.REPLAY.value,))
 
 
 def _lines(plan: RetentionPlan) -> list[str]:
