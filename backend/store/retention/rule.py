@@ -37,7 +37,7 @@ class Removable(StrEnum):
 
 
 KIND_WORDS: Mapping[Removable, str] = {
-    Removable.REPLAY: "replay files and checkpoints (a failed or cancelled run then begins anew when it is tried again)",
+    Removable.REPLAY: "replay files and checkpoints (a failed or cancelled run then begins anew if retried)",
     Removable.POLICIES: "policies of single epochs (the newest and the best stay)",
     Removable.EPISODES: "recorded test episodes",
     Removable.VIDEOS: "videos",

@@ -1,6 +1,6 @@
 /** Lets the browser tell what happens while the page is open. */
 import { useNavigate } from '@tanstack/react-router';
-import { useDesktopNotices } from '@/lib/desktop-notices';
+import { useDesktopNotices } from '@/components/desktop-notices';
 
 export function Notices() {
   const navigate = useNavigate();

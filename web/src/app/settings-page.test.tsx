@@ -1,7 +1,7 @@
 import { screen, waitFor, within } from '@testing-library/react';
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import type { Notice, RetentionPreview, Webhook } from '@/client/schema.gen';
-import { untold } from '@/lib/desktop-notices';
+import { untold } from '@/lib/notices';
 import { DONE, type FakeServer, problem } from '@/testing/fake-server';
 import { openPage, startServer } from '@/testing/open-page';
 

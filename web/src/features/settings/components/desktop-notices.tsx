@@ -1,7 +1,7 @@
 /** Whether this browser shows a notification when a study ends or a run fails. */
 import { Switch } from '@mantine/core';
 import { useState } from 'react';
-import { canNotify, useNoticesWanted } from '@/lib/desktop-notices';
+import { canNotify, useNoticesWanted } from '@/components/desktop-notices';
 import classes from './settings.module.css';
 
 export function DesktopNotices() {

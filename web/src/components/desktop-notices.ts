@@ -2,8 +2,8 @@
 import { useLocalStorage } from '@mantine/hooks';
 import { useQuery } from '@tanstack/react-query';
 import { useEffect, useRef } from 'react';
-import type { Notice } from '@/client/schema.gen';
 import { client, unwrap } from '@/lib/api';
+import { noticeKey, untold } from '@/lib/notices';
 
 /** How often it is asked what has happened [ms]. */
 const POLL_MS = 15_000;
@@ -24,18 +24,6 @@ export function useNoticesWanted(): [boolean, (wanted: boolean) => void] {
     getInitialValueInEffect: false,
   });
   return [isWanted, want];
-}
-
-/** What tells a thing from every other one. */
-export function noticeKey({ event, subject, occasion }: Notice): string {
-  return `${event} ${subject} ${occasion}`;
-}
-
-/** Those that were not shown yet; they count as shown from now on. */
-export function untold(notices: readonly Notice[], told: Set<string>): Notice[] {
-  const fresh = notices.filter((notice) => !told.has(noticeKey(notice)));
-  for (const notice of fresh) told.add(noticeKey(notice));
-  return fresh;
 }
 
 /** Show what happens from now on, if the person wants it; `open` leads to what it is about. */
