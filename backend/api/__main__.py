@@ -27,6 +27,7 @@ def make_server(app: FastAPI, host: str, port: int) -> uvicorn.Server:
         host=host,
         port=port,
         log_level="warning",
+        log_config=None,  # its warnings go where all others of this process go
         ws_per_message_deflate=False,
         ws_max_size=LARGEST_MESSAGE,
         timeout_graceful_shutdown=SHUTDOWN_S,

@@ -9,7 +9,7 @@ from pydantic import Field
 
 from backend.api.schemas import Strict
 from backend.store.notices import NoticeEvent
-from backend.store.webhooks import DeliveryState, Event
+from backend.store.webhooks import DeliveryEvent, DeliveryState
 from backend.webhooks.targets import LONGEST_URL
 
 
@@ -42,7 +42,7 @@ class Delivery(Strict):
     """One message to one address."""
 
     id: str
-    event: Event
+    event: DeliveryEvent
     state: DeliveryState
     tries: int
     problem: str | None = Field(description="Why the newest try failed, in one sentence.")

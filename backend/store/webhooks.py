@@ -21,7 +21,7 @@ from backend.store.errors import NotFound, Refused
 from backend.store.notices import Notice, select_notices
 from backend.store.tables import AnyRow, webhook_deliveries, webhooks
 
-Event = Literal["study_ended", "run_failed", "test"]
+DeliveryEvent = Literal["study_ended", "run_failed", "test"]
 DeliveryState = Literal["waiting", "sent", "failed"]
 
 MOST_WEBHOOKS = 20
@@ -42,7 +42,7 @@ class Delivery:
 
     id: str
     webhook_id: str
-    event: Event
+    event: DeliveryEvent
     body: str
     """What is sent, as JSON."""
     state: DeliveryState
