@@ -111,7 +111,7 @@ def _within(address: IpAddress) -> Iterable[IpAddress]:
     if isinstance(address, ipaddress.IPv4Address):
         return []
     found = [address.ipv4_mapped, address.sixtofour, *(address.teredo or ())]
-    if address in NAT64 or int(address) >> 32 == 0:
+    if address in NAT64 or (int(address) >> 32 == 0 and not address.is_loopback):
         found.append(ipaddress.IPv4Address(int(address) & 0xFFFFFFFF))
     return [part for part in found if part is not None]
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from hypothesis import given
+from hypothesis import settings as hypothesis_settings
 from hypothesis import strategies as st
 from sqlalchemy import update
 from store_cases import claim_next, claimed_run, order
@@ -200,6 +201,7 @@ def test_no_mark_leads_out_of_the_data_directory(tmp_path: Path):
     assert (tmp_path / "precious").exists()
 
 
+@hypothesis_settings(max_examples=50)
 @given(st.text(max_size=40), st.sampled_from(["policy", "locomotion", "thumbnail", "log", "dump"]))
 def test_only_policies_of_epochs_go_of_what_results_are_kept_in(name: str, kind: str):
     found = kind_of(name, kind)
