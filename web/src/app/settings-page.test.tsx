@@ -72,7 +72,8 @@ test('a webhook is added, its secret shown once, tested and removed', async () =
     .on('POST /api/webhooks/w1/test', () => ({ status: 202, body: WEBHOOK.deliveries[0] }))
     .on('DELETE /api/webhooks/w1', () => DONE);
   const { user } = openPage('/settings');
-  await user.type(await screen.findByRole('textbox', { name: 'Address' }), URL);
+  await user.click(await screen.findByRole('textbox', { name: 'Address' }));
+  await user.paste(URL);
   await user.click(screen.getByRole('checkbox', { name: 'A study has ended' }));
   await user.click(screen.getByRole('button', { name: 'Add' }));
   expect(await screen.findByText('5ec2e7')).toBeTruthy();
@@ -123,6 +124,7 @@ test('notifications are shown once it is wanted, each once, and lead to the run'
     }
   }
   vi.stubGlobal('Notification', Fake);
+  vi.spyOn(window, 'focus').mockReturnValue();
   server.on('GET /api/notices', () => ({ body: { notices: [NOTICE], now: new Date().toISOString() } }));
   const { user, router } = openPage('/settings');
   expect(shown).toEqual([]);
