@@ -48,6 +48,8 @@ def test_an_open_page_hears_what_has_happened(service: Service):
     assert (notice["event"], notice["subject"], notice["path"]) == ("run_failed", run_id, f"/runs/{run_id}")
     assert service.get("/api/notices", params={"since": answer["now"]})["notices"] == []
     assert service.client.get("/api/notices", params={"since": "2026-01-01T00:00:00"}).status_code == 422
+    outside = service.client.get("/api/notices", params={"since": "9999-12-31T23:59:59-14:00"})
+    assert (outside.status_code, problem_fields(outside)) == (422, ["since"])
 
 
 def test_a_preview_says_what_applying_does(service: Service):

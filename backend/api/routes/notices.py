@@ -9,7 +9,7 @@ from fastapi import APIRouter, Query
 from pydantic import AwareDatetime
 
 from backend.api.dependencies import ServiceParts, Store
-from backend.api.errors import problem_responses
+from backend.api.errors import ApiError, problem_responses
 from backend.api.notice_schemas import AddedWebhook, Delivery, NewWebhook, Notice, Notices, Webhook, Webhooks
 from backend.store import notices, webhooks
 from backend.webhooks.messages import trial_body
@@ -24,7 +24,11 @@ def list_notices(
 ) -> Notices:
     """List the studies that have ended and the runs that have failed, the oldest first."""
     now = datetime.now(UTC)
-    found = notices.list_notices(store, since)
+    try:
+        after = since.astimezone(UTC)
+    except OverflowError:
+        raise ApiError(422, "There is no such time in UTC; name one between the years 1 and 9999.", "since") from None
+    found = notices.list_notices(store, after)
     return Notices(
         notices=[
             Notice(

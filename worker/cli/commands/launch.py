@@ -50,7 +50,7 @@ class Arguments:
     """Keep the runs together as a study of this name."""
     template: Annotated[str | None, tyro.conf.arg(metavar="NAME", help_behavior_hint="")] = None
     """Begin with a study that comes with the product: paper, paper-fetch ...; other options then change it."""
-    variant: tyro.conf.UseAppendAction[tuple[tuple[str, str], ...]] = ()
+    variant: Annotated[tyro.conf.UseAppendAction[tuple[tuple[str, str], ...]], tyro.conf.arg(metavar="NAME JSON")] = ()
     """Settings of a study that are tried beside others: a name, then JSON such as {"loop": {"batch_size": 256}}."""
     dry_run: bool = False
     """Say what would be queued, and queue nothing."""
