@@ -14,8 +14,6 @@ from backend.store.states import ENDED, RunState
 from backend.store.tables import runs, studies, study_runs
 
 NoticeEvent = Literal["study_ended", "run_failed"]
-MOST_NOTICES = 100
-"""Notices of each kind in one answer at most, the newest."""
 
 
 @dataclass(frozen=True)
@@ -50,7 +48,17 @@ def select_notices(conn: Connection, since: datetime) -> list[Notice]:
 
 def _failed_runs(conn: Connection, since: datetime) -> list[Notice]:
     lately = (runs.c.state == RunState.FAILED, runs.c.ended_at > since, runs.c.deleted_at.is_(None))
-    query = select(runs).where(*lately).order_by(runs.c.ended_at.desc()).limit(MOST_NOTICES)
+    told = (
+        runs.c.id,
+        runs.c.fence,
+        runs.c.ended_at,
+        runs.c.reason,
+        runs.c.task,
+        runs.c.phase,
+        runs.c.method,
+        runs.c.seed,
+    )
+    query = select(*told).where(*lately).order_by(runs.c.ended_at)
     return [
         Notice(
             event="run_failed",
@@ -95,7 +103,7 @@ def _ended_studies(conn: Connection, since: datetime) -> list[Notice]:
         _study_notice(study_id, name, tally)
         for (study_id, name), tally in tallies.items()
         if all(state in ENDED for state, _, _ in tally)
-    ][-MOST_NOTICES:]
+    ]
 
 
 def _study_notice(study_id: str, name: str, tally: list[tuple[RunState, int, datetime | None]]) -> Notice:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import secrets
 import uuid
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime, timedelta
 from typing import Any, Literal
@@ -136,28 +136,30 @@ def plan_deliveries(db: Database, body_of: Callable[[Notice], Mapping[str, Any]]
     Args:
         body_of: returns what is sent of a notice, to be written as JSON.
     """
+    # A store whose tables rest is only read: writers on SQLite take turns with those that train.
     with db.read() as conn:
-        if conn.execute(select(webhooks.c.id).limit(1)).one_or_none() is None:
+        if not _untold(conn, current_time(conn)):
             return 0
     with db.write() as conn:
         at = current_time(conn)
-        forget_before = at - timedelta(seconds=KEPT_S)
-        made = 0
-        for row in conn.execute(select(webhooks).with_for_update()).all():
-            lately = select_notices(conn, max(row.created_at, forget_before))
-            for notice in _untold(conn, row.id, [notice for notice in lately if notice.event in row.events]):
-                body = json.dumps(body_of(notice))
-                _insert(conn, row.id, notice.event, notice.subject, notice.occasion, body, at)
-                made += 1
-        conn.execute(delete(webhook_deliveries).where(webhook_deliveries.c.ended_at < forget_before))
-    return made
+        conn.execute(select(webhooks.c.id).with_for_update()).all()
+        untold = _untold(conn, at)
+        for webhook_id, notice in untold:
+            body = json.dumps(body_of(notice))
+            _insert(conn, webhook_id, notice.event, notice.subject, notice.occasion, body, at)
+        forgotten = webhook_deliveries.c.ended_at < at - timedelta(seconds=KEPT_S)
+        conn.execute(delete(webhook_deliveries).where(forgotten))
+    return len(untold)
 
 
 def take_delivery(db: Database) -> Taken | None:
     """Take the delivery that is due the longest, for a while; None if none is."""
+    with db.read() as conn:
+        due = (webhook_deliveries.c.state == "waiting", webhook_deliveries.c.not_before <= current_time(conn))
+        if conn.execute(select(webhook_deliveries.c.id).where(*due).limit(1)).one_or_none() is None:
+            return None
     with db.write() as conn:
         at = current_time(conn)
-        due = (webhook_deliveries.c.state == "waiting", webhook_deliveries.c.not_before <= at)
         first = (
             select(webhook_deliveries.c.id)
             .where(*due)
@@ -196,13 +198,17 @@ def note_sent(db: Database, taken: Taken, problem: str | None) -> None:
         conn.execute(update(webhook_deliveries).where(*this).values(**values))
 
 
-def _untold(conn: Connection, webhook_id: str, notices: Collection[Notice]) -> list[Notice]:
-    """Return the notices for which an address has no delivery."""
-    if not notices:
-        return []
-    query = select(webhook_deliveries.c.event, webhook_deliveries.c.subject, webhook_deliveries.c.occasion)
-    there = {tuple(row) for row in conn.execute(query.where(webhook_deliveries.c.webhook_id == webhook_id))}
-    return [notice for notice in notices if (notice.event, notice.subject, notice.occasion) not in there]
+def _untold(conn: Connection, at: datetime) -> list[tuple[str, Notice]]:
+    """Return the notices that each address is to be told and for which there is no delivery, with the address's id."""
+    found: list[tuple[str, Notice]] = []
+    told = select(webhook_deliveries.c.event, webhook_deliveries.c.subject, webhook_deliveries.c.occasion)
+    for row in conn.execute(select(webhooks)).all():
+        lately = select_notices(conn, max(row.created_at, at - timedelta(seconds=KEPT_S)))
+        wanted = [notice for notice in lately if notice.event in row.events]
+        if wanted:
+            there = {tuple(key) for key in conn.execute(told.where(webhook_deliveries.c.webhook_id == row.id))}
+            found += [(row.id, new) for new in wanted if (new.event, new.subject, new.occasion) not in there]
+    return found
 
 
 def _insert(

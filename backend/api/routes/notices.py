@@ -15,6 +15,9 @@ from backend.store import notices, webhooks
 from backend.webhooks.messages import trial_body
 from backend.webhooks.targets import check_url
 
+MOST_NOTICES = 100
+"""Notices in one answer at most, the newest."""
+
 router = APIRouter(prefix="/api", tags=["notices"])
 
 
@@ -22,13 +25,13 @@ router = APIRouter(prefix="/api", tags=["notices"])
 def list_notices(
     store: Store, since: Annotated[AwareDatetime, Query(description="Only what has happened after it.")]
 ) -> Notices:
-    """List the studies that have ended and the runs that have failed, the oldest first."""
+    """List the newest studies that have ended and runs that have failed, the oldest of them first."""
     now = datetime.now(UTC)
     try:
         after = since.astimezone(UTC)
     except OverflowError:
         raise ApiError(422, "There is no such time in UTC; name one between the years 1 and 9999.", "since") from None
-    found = notices.list_notices(store, after)
+    found = notices.list_notices(store, after)[-MOST_NOTICES:]
     return Notices(
         notices=[
             Notice(

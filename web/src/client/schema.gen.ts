@@ -233,7 +233,7 @@ export interface paths {
         };
         /**
          * List Notices
-         * @description List the studies that have ended and the runs that have failed, the oldest first.
+         * @description List the newest studies that have ended and runs that have failed, the oldest of them first.
          */
         get: operations["list_notices"];
         put?: never;
