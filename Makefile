@@ -21,13 +21,16 @@ PIP := .venv/bin/python -m pip --disable-pip-version-check --quiet
 WEB_SOURCES := $(shell find web/src web/public -type f -not -name '*.test.*' 2>/dev/null)
 CLIENT := web/src/client/schema.gen.ts
 
-.PHONY: run test chaos bench pictures pictures-3d setup web client lock format clean help system
+.PHONY: run test test-all chaos bench pictures pictures-3d setup web client lock format clean help system
 
 run: setup ## Set everything up and serve the page; HOST and PORT say where
 	@exec .venv/bin/sldr serve --host $(HOST) --port $(PORT)
 
 test: setup ## Set everything up and run every check; PARTS="lint pytest" runs some
 	@.ci/checks.sh $(PARTS)
+
+test-all: setup ## The same, and then all tests at their full sample sizes (an hour)
+	@.ci/checks.sh all slow
 
 chaos: setup ## Kill, crowd and hurry a service; the results go into docs/reliability.md (many minutes)
 	@PYTHONPATH=tests .venv/bin/python tests/chaos --write docs/reliability.md $(CHAOS)
@@ -64,7 +67,7 @@ clean: ## Remove everything that was made; trained runs stay
 help: ## List what can be made
 	@sed -nE 's/^([a-z0-9-]+):.*## (.*)/  make \1\t\2/p' Makefile | expand -t 16
 
-test bench pictures pictures-3d: purpose := test
+test test-all bench pictures pictures-3d: purpose := test
 system:
 	@.ci/system-packages.sh $(purpose)
 

@@ -28,8 +28,8 @@ CHECKS = [
     negative_data_rejection,
 ]
 
-EXAMPLES = 8
-"""Requests made up for each operation."""
+FEW, MANY = 3, 40
+"""Requests made up for each operation, in the usual run and in the slow one."""
 
 
 NOWHERE = Path("/nonexistent")
@@ -54,14 +54,26 @@ def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
         yield address
 
 
+def made_up(requests: int) -> settings:
+    """Return how so many requests are made up, the same in every run."""
+    return settings(
+        max_examples=requests,
+        deadline=None,
+        database=None,
+        derandomize=True,
+        phases=[Phase.explicit, Phase.generate],
+        suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much, HealthCheck.data_too_large],
+    )
+
+
 @described.parametrize()
-@settings(
-    max_examples=EXAMPLES,
-    deadline=None,
-    database=None,
-    derandomize=True,
-    phases=[Phase.explicit, Phase.generate],
-    suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much, HealthCheck.data_too_large],
-)
+@made_up(FEW)
 def test_every_answer_is_as_the_schema_says(address: str, case: schemathesis.Case):
+    case.call_and_validate(base_url=address, checks=CHECKS)
+
+
+@pytest.mark.slow
+@described.parametrize()
+@made_up(MANY)
+def test_every_answer_to_many_requests_is_as_the_schema_says(address: str, case: schemathesis.Case):
     case.call_and_validate(base_url=address, checks=CHECKS)
