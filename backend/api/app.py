@@ -63,7 +63,6 @@ def create_app(settings: Settings, page: Path = BUILT_PAGE, hosts: HostRule = LO
         page: directory of the built page.
         hosts: the names that the server answers to.
     """
-    registry = CollectorRegistry()
     app = FastAPI(
         title="SLDR",
         summary="Train robot manipulation with sparse rewards.",
@@ -72,7 +71,7 @@ def create_app(settings: Settings, page: Path = BUILT_PAGE, hosts: HostRule = LO
         docs_url=None,
         redoc_url=None,
         generate_unique_id_function=_operation_id,
-        lifespan=_lifespan(settings, registry),
+        lifespan=_lifespan(settings),
     )
     for routes in (
         health,
@@ -108,11 +107,12 @@ def create_app(settings: Settings, page: Path = BUILT_PAGE, hosts: HostRule = LO
     )
     app.add_middleware(SameOrigin)
     app.add_middleware(OwnHost, rule=hosts)
-    app.add_middleware(RequestMeter, latencies=make_latencies(registry))
+    app.state.registry = CollectorRegistry()
+    app.add_middleware(RequestMeter, latencies=make_latencies(app.state.registry))
     return app
 
 
-def _lifespan(settings: Settings, registry: CollectorRegistry):  # noqa: ANN202 - the decorator's type is longer than it helps
+def _lifespan(settings: Settings):  # noqa: ANN202 - the decorator's type is longer than it helps
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         database = open_database(settings)
@@ -121,7 +121,7 @@ def _lifespan(settings: Settings, registry: CollectorRegistry):  # noqa: ANN202 
             sender = Sender(database, settings.local_webhooks)
             sender.start()
             app.state.service = Service(
-                settings, database, FileStorage(settings), tokens, viser, ComparisonMemory(), registry, sender
+                settings, database, FileStorage(settings), tokens, viser, ComparisonMemory(), sender
             )
             yield
             sender.stop()

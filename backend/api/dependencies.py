@@ -30,8 +30,6 @@ class Service:
     """Fetches pages from the 3D servers on this machine."""
     memory: ComparisonMemory
     """What comparisons keep between two questions."""
-    registry: CollectorRegistry
-    """What this process counts for a monitor."""
     sender: Sender
     """Tells other services what has ended."""
 
@@ -66,9 +64,15 @@ def get_memory(connection: HTTPConnection) -> ComparisonMemory:
     return get_service(connection).memory
 
 
+def get_registry(connection: HTTPConnection) -> CollectorRegistry:
+    """Return what this process counts for a monitor."""
+    return connection.app.state.registry
+
+
 ServiceParts = Annotated[Service, Depends(get_service)]
 Store = Annotated[Database, Depends(get_database)]
 Storage = Annotated[FileStorage, Depends(get_storage)]
 ServiceSettings = Annotated[Settings, Depends(get_settings)]
 Tokens = Annotated[ViewerTokens, Depends(get_tokens)]
 Memory = Annotated[ComparisonMemory, Depends(get_memory)]
+Registry = Annotated[CollectorRegistry, Depends(get_registry)]

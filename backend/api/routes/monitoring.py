@@ -10,7 +10,7 @@ from prometheus_client import CONTENT_TYPE_LATEST, CollectorRegistry, generate_l
 from prometheus_client.core import GaugeMetricFamily, Metric
 from prometheus_client.registry import Collector
 
-from backend.api.dependencies import ServiceParts
+from backend.api.dependencies import Registry, Store
 from backend.api.errors import problem_responses
 from backend.store.census import Census, take_census
 
@@ -22,11 +22,11 @@ router = APIRouter(tags=["health"])
     response_class=Response,
     responses={200: {"content": {"text/plain": {}}, "description": "Every metric, one a line."}} | problem_responses(),
 )
-def get_metrics(service: ServiceParts) -> Response:
+def get_metrics(store: Store, registry: Registry) -> Response:
     """Tell runs by state, workers, how long the queue waits, and how long requests take, for Prometheus."""
-    registry = CollectorRegistry()
-    registry.register(CensusCollector(take_census(service.database)))
-    content = generate_latest(registry) + generate_latest(service.registry)
+    now = CollectorRegistry()
+    now.register(CensusCollector(take_census(store)))
+    content = generate_latest(now) + generate_latest(registry)
     return Response(content, headers={"content-type": CONTENT_TYPE_LATEST})
 
 
