@@ -26,6 +26,8 @@ LARGEST_FILE = 10 * 1024 * 1024
 """A log file is set aside once it has grown to this size [bytes]."""
 KEPT_FILES = 5
 """Files set aside that are kept; the oldest goes when another comes."""
+QUIET = ("httpx", "httpcore")
+"""Libraries that would write every address they ask, tokens in it and all."""
 MOST_NAMES = 50
 """Processes of one role that may write logs in one directory."""
 
@@ -69,6 +71,8 @@ def start_logging(role: str, directory: Path, style: LogStyle, level: int = logg
         handler.setFormatter(formatter)
         logging.getLogger().addHandler(handler)
     logging.getLogger().setLevel(level)
+    for name in QUIET:
+        logging.getLogger(name).setLevel(logging.WARNING)
     return path
 
 

@@ -125,6 +125,7 @@ def test_files_rotate_and_are_shared_by_no_two_processes(tmp_path: Path, monkeyp
         second = start_logging("worker", tmp_path, "human")
         for number in range(20):
             root.info("line %d", number)
+        logging.getLogger("httpx").info("HTTP Request: POST https://chat.example.org/hooks/secret")
     finally:
         for added in [handler for handler in root.handlers if handler not in before]:
             root.removeHandler(added)
@@ -133,6 +134,7 @@ def test_files_rotate_and_are_shared_by_no_two_processes(tmp_path: Path, monkeyp
     assert (first.name, second.name) == ("worker.log", "worker-2.log")
     assert {path.name for path in tmp_path.glob("worker.log*")} == {"worker.log", "worker.log.1", "worker.log.2"}
     assert json.loads(first.read_text().splitlines()[-1])["message"] == "line 19"
+    assert not any("secret" in path.read_text() for path in tmp_path.glob("*.log*"))
 
 
 def test_a_format_that_does_not_exist_is_refused(monkeypatch: pytest.MonkeyPatch):
