@@ -9,6 +9,8 @@ from fastapi import FastAPI
 
 from backend.api.app import create_app
 from backend.api.hosts import load_host_rule
+from backend.api.server_mark import local_url, marked
+from backend.logs import load_style, start_logging
 from backend.store.settings import load_settings
 
 LARGEST_MESSAGE = 64 * 1024 * 1024
@@ -25,6 +27,7 @@ def make_server(app: FastAPI, host: str, port: int) -> uvicorn.Server:
         host=host,
         port=port,
         log_level="warning",
+        log_config=None,  # its warnings go where all others of this process go
         ws_per_message_deflate=False,
         ws_max_size=LARGEST_MESSAGE,
         timeout_graceful_shutdown=SHUTDOWN_S,
@@ -38,8 +41,11 @@ def main() -> None:
     parser.add_argument("--host", default="127.0.0.1", help="address to listen on")
     parser.add_argument("--port", type=int, default=8000, help="port to listen on")
     arguments = parser.parse_args()
-    app = create_app(load_settings(), hosts=load_host_rule(arguments.host))
-    make_server(app, arguments.host, arguments.port).run()
+    settings = load_settings()
+    start_logging("api", settings.logs_directory, load_style())
+    app = create_app(settings, hosts=load_host_rule(arguments.host))
+    with marked(settings, local_url(arguments.host, arguments.port)):
+        make_server(app, arguments.host, arguments.port).run()
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from fastapi import FastAPI
 from fastapi.routing import APIRoute
+from prometheus_client import CollectorRegistry
 from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddleware
 
 from backend.api import viewer_proxy
@@ -17,6 +18,7 @@ from backend.api.errors import add_error_answers
 from backend.api.hosts import LOCAL, HostRule, OwnHost
 from backend.api.origins import SameOrigin
 from backend.api.pages import BUILT_PAGE, add_pages
+from backend.api.request_meter import RequestMeter, make_latencies
 from backend.api.routes import (
     choices,
     compare,
@@ -26,7 +28,10 @@ from backend.api.routes import (
     labels,
     launches,
     media,
+    monitoring,
+    notices,
     queue,
+    retention,
     run_actions,
     run_files,
     run_table,
@@ -41,6 +46,7 @@ from backend.comparison.memory import ComparisonMemory
 from backend.store.database import open_database
 from backend.store.settings import Settings
 from backend.store.storage import FileStorage
+from backend.webhooks.sender import Sender
 
 GZIP_LEVEL = 5
 """Nearly as small as the smallest, several times as fast."""
@@ -69,6 +75,7 @@ def create_app(settings: Settings, page: Path = BUILT_PAGE, hosts: HostRule = LO
     )
     for routes in (
         health,
+        monitoring,
         choices,
         launches,
         studies,
@@ -82,6 +89,8 @@ def create_app(settings: Settings, page: Path = BUILT_PAGE, hosts: HostRule = LO
         queue,
         workers,
         saved_views,
+        notices,
+        retention,
         viewer_sessions,
         compare,
         compare_exports,
@@ -98,6 +107,8 @@ def create_app(settings: Settings, page: Path = BUILT_PAGE, hosts: HostRule = LO
     )
     app.add_middleware(SameOrigin)
     app.add_middleware(OwnHost, rule=hosts)
+    app.state.registry = CollectorRegistry()
+    app.add_middleware(RequestMeter, latencies=make_latencies(app.state.registry))
     return app
 
 
@@ -107,8 +118,13 @@ def _lifespan(settings: Settings):  # noqa: ANN202 - the decorator's type is lon
         database = open_database(settings)
         with viewer_proxy.viser_client() as viser:
             tokens = ViewerTokens(load_secret(settings.secret_path))
-            app.state.service = Service(settings, database, FileStorage(settings), tokens, viser, ComparisonMemory())
+            sender = Sender(database, settings.local_webhooks)
+            sender.start()
+            app.state.service = Service(
+                settings, database, FileStorage(settings), tokens, viser, ComparisonMemory(), sender
+            )
             yield
+            sender.stop()
         database.close()
 
     return lifespan

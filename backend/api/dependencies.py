@@ -7,6 +7,7 @@ from typing import Annotated
 
 import httpx
 from fastapi import Depends
+from prometheus_client import CollectorRegistry
 from starlette.requests import HTTPConnection
 
 from backend.api.tokens import ViewerTokens
@@ -14,6 +15,7 @@ from backend.comparison.memory import ComparisonMemory
 from backend.store.database import Database
 from backend.store.settings import Settings
 from backend.store.storage import FileStorage
+from backend.webhooks.sender import Sender
 
 
 @dataclass(frozen=True)
@@ -28,6 +30,8 @@ class Service:
     """Fetches pages from the 3D servers on this machine."""
     memory: ComparisonMemory
     """What comparisons keep between two questions."""
+    sender: Sender
+    """Tells other services what has ended."""
 
 
 def get_service(connection: HTTPConnection) -> Service:
@@ -60,9 +64,15 @@ def get_memory(connection: HTTPConnection) -> ComparisonMemory:
     return get_service(connection).memory
 
 
+def get_registry(connection: HTTPConnection) -> CollectorRegistry:
+    """Return what this process counts for a monitor."""
+    return connection.app.state.registry
+
+
 ServiceParts = Annotated[Service, Depends(get_service)]
 Store = Annotated[Database, Depends(get_database)]
 Storage = Annotated[FileStorage, Depends(get_storage)]
 ServiceSettings = Annotated[Settings, Depends(get_settings)]
 Tokens = Annotated[ViewerTokens, Depends(get_tokens)]
 Memory = Annotated[ComparisonMemory, Depends(get_memory)]
+Registry = Annotated[CollectorRegistry, Depends(get_registry)]

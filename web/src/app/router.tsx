@@ -74,6 +74,12 @@ const workers = createRoute({
   component: lazyRouteComponent(() => import('@/features/workers/workers-page'), 'WorkersPage'),
 });
 
+const settings = createRoute({
+  getParentRoute: () => root,
+  path: '/settings',
+  component: lazyRouteComponent(() => import('@/features/settings/settings-page'), 'SettingsPage'),
+});
+
 const compare = createRoute({
   getParentRoute: () => root,
   path: '/compare',
@@ -91,7 +97,19 @@ const configs = createRoute({
 /** Make the router; a test hands in a history of its own. */
 export function makeRouter(history?: RouterHistory) {
   return createRouter({
-    routeTree: root.addChildren([runs, launch, run, studies, newStudy, study, compare, configs, queue, workers]),
+    routeTree: root.addChildren([
+      runs,
+      launch,
+      run,
+      studies,
+      newStudy,
+      study,
+      compare,
+      configs,
+      queue,
+      workers,
+      settings,
+    ]),
     history,
     defaultNotFoundComponent: PageNotFound,
     defaultErrorComponent: PageBroke,
