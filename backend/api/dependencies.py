@@ -10,6 +10,7 @@ from fastapi import Depends
 from prometheus_client import CollectorRegistry
 from starlette.requests import HTTPConnection
 
+from backend.api.access.callers import Access, Caller
 from backend.api.tokens import ViewerTokens
 from backend.comparison.memory import ComparisonMemory
 from backend.store.database import Database
@@ -32,6 +33,8 @@ class Service:
     """What comparisons keep between two questions."""
     sender: Sender
     """Tells other services what has ended."""
+    access: Access
+    """Who comes in."""
 
 
 def get_service(connection: HTTPConnection) -> Service:
@@ -69,6 +72,13 @@ def get_registry(connection: HTTPConnection) -> CollectorRegistry:
     return connection.app.state.registry
 
 
+def get_caller(connection: HTTPConnection) -> Caller:
+    """Return who asks, at a route that nobody else reaches."""
+    caller = connection.scope["state"]["caller"]
+    assert isinstance(caller, Caller)
+    return caller
+
+
 ServiceParts = Annotated[Service, Depends(get_service)]
 Store = Annotated[Database, Depends(get_database)]
 Storage = Annotated[FileStorage, Depends(get_storage)]
@@ -76,3 +86,4 @@ ServiceSettings = Annotated[Settings, Depends(get_settings)]
 Tokens = Annotated[ViewerTokens, Depends(get_tokens)]
 Memory = Annotated[ComparisonMemory, Depends(get_memory)]
 Registry = Annotated[CollectorRegistry, Depends(get_registry)]
+KnownCaller = Annotated[Caller, Depends(get_caller)]

@@ -58,6 +58,11 @@ class Settings:
         """The address of the service that runs over this directory, which locks the file meanwhile."""
         return self.home / "server-address"
 
+    @property
+    def access_token_path(self) -> Path:
+        """The token that opens a server on loopback."""
+        return self.home / "access-token"
+
     def run_directory(self, run_id: str) -> Path:
         """Return the directory of one run; it exists once a worker has begun the run."""
         return self.runs_directory / run_id

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from datetime import UTC, datetime
 from typing import Any
 
 from sqlalchemy import (
@@ -10,22 +9,21 @@ from sqlalchemy import (
     BigInteger,
     Boolean,
     Column,
-    DateTime,
-    Dialect,
     Float,
     ForeignKey,
     Index,
     Integer,
-    MetaData,
     Row,
     String,
     Table,
     Text,
-    TypeDecorator,
     UniqueConstraint,
     false,
     literal_column,
 )
+
+import backend.store.access.tables  # noqa: F401 - its tables are of the same metadata
+from backend.store.schema import ID_LENGTH, NAME_LENGTH, UtcDateTime, metadata
 
 SCHEMA_REVISION = "0010"
 """The migration that these tables correspond to."""
@@ -33,43 +31,9 @@ SCHEMA_REVISION = "0010"
 AnyRow = Row[*tuple[Any, ...]]
 """A row of whatever columns were asked for."""
 
-ID_LENGTH = 32
-NAME_LENGTH = 200
-
 TEST_METRIC_INDEX_CONDITION = "metric_values.name >= 'test/' AND metric_values.name < 'test0'"
 """Which metrics have an index by name: those of tests, few among many. A query that says so is answered from it."""
 
-
-class UtcDateTime(TypeDecorator[datetime]):
-    """Hand out aware UTC times on every database, also on those that store none."""
-
-    impl = DateTime(timezone=True)
-    cache_ok = True
-
-    def process_bind_param(self, value: datetime | None, dialect: Dialect) -> datetime | None:
-        """Refuse naive times and store the others in UTC."""
-        if value is None:
-            return None
-        if value.tzinfo is None:
-            raise ValueError(f"time {value} has no zone; use aware UTC times")
-        value = value.astimezone(UTC)
-        return value.replace(tzinfo=None) if dialect.name == "sqlite" else value
-
-    def process_result_value(self, value: datetime | None, dialect: Dialect) -> datetime | None:
-        """Return an aware UTC time."""
-        if value is None:
-            return None
-        return value.replace(tzinfo=UTC) if value.tzinfo is None else value.astimezone(UTC)
-
-
-metadata = MetaData(
-    naming_convention={
-        "ix": "ix_%(table_name)s_%(column_0_N_name)s",
-        "uq": "uq_%(table_name)s_%(column_0_N_name)s",
-        "fk": "fk_%(table_name)s_%(column_0_N_name)s",
-        "pk": "pk_%(table_name)s",
-    }
-)
 
 runs = Table(
     "runs",

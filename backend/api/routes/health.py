@@ -6,6 +6,7 @@ from importlib.metadata import version
 
 from fastapi import APIRouter
 
+from backend.api.access.declarations import open_to_all
 from backend.api.dependencies import Store
 from backend.api.errors import problem_responses
 from backend.api.schemas import Health
@@ -16,6 +17,7 @@ router = APIRouter(tags=["health"])
 
 
 @router.get("/healthz", responses=problem_responses())
+@open_to_all
 def get_health(store: Store) -> Health:
     """Tell whether runs would be trained and watched: the store answers, a worker and the viewer host are alive."""
     known = workers.list_workers(store)

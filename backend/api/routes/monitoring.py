@@ -10,6 +10,7 @@ from prometheus_client import CONTENT_TYPE_LATEST, CollectorRegistry, generate_l
 from prometheus_client.core import GaugeMetricFamily, Metric
 from prometheus_client.registry import Collector
 
+from backend.api.access.declarations import needs
 from backend.api.dependencies import Registry, Store
 from backend.api.errors import problem_responses
 from backend.store.census import Census, take_census
@@ -22,6 +23,7 @@ router = APIRouter(tags=["health"])
     response_class=Response,
     responses={200: {"content": {"text/plain": {}}, "description": "Every metric, one a line."}} | problem_responses(),
 )
+@needs("viewer")
 def get_metrics(store: Store, registry: Registry) -> Response:
     """Tell runs by state, workers, how long the queue waits, and how long requests take, for Prometheus."""
     now = CollectorRegistry()

@@ -8,6 +8,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Query
 from pydantic import AwareDatetime
 
+from backend.api.access.declarations import needs
 from backend.api.dependencies import ServiceParts, Store
 from backend.api.errors import ApiError, problem_responses
 from backend.api.notice_schemas import AddedWebhook, Delivery, NewWebhook, Notice, Notices, Webhook, Webhooks
@@ -22,6 +23,7 @@ router = APIRouter(prefix="/api", tags=["notices"])
 
 
 @router.get("/notices", responses=problem_responses(422))
+@needs("viewer")
 def list_notices(
     store: Store, since: Annotated[AwareDatetime, Query(description="Only what has happened after it.")]
 ) -> Notices:
@@ -49,12 +51,14 @@ def list_notices(
 
 
 @router.get("/webhooks", responses=problem_responses())
+@needs("operator")
 def list_webhooks(store: Store) -> Webhooks:
     """List the addresses that are told, with their newest messages."""
     return Webhooks(webhooks=[Webhook(**_fields(webhook)) for webhook in webhooks.list_webhooks(store)])
 
 
 @router.post("/webhooks", status_code=201, responses=problem_responses(400, 403, 409, 422))
+@needs("admin")
 def add_webhook(wish: NewWebhook, store: Store) -> AddedWebhook:
     """Tell an address from now on; the secret of its signatures is in this answer alone."""
     check_url(wish.url)
@@ -63,12 +67,14 @@ def add_webhook(wish: NewWebhook, store: Store) -> AddedWebhook:
 
 
 @router.delete("/webhooks/{webhook_id}", status_code=204, responses=problem_responses(403, 404, 422))
+@needs("admin")
 def remove_webhook(webhook_id: str, store: Store) -> None:
     """Tell an address no more."""
     webhooks.remove_webhook(store, webhook_id)
 
 
 @router.post("/webhooks/{webhook_id}/test", status_code=202, responses=problem_responses(403, 404, 422))
+@needs("admin")
 def test_webhook(webhook_id: str, service: ServiceParts) -> Delivery:
     """Put a test message on its way; the list says what became of it."""
     added = webhooks.add_test(service.database, webhook_id, trial_body())

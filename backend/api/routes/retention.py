@@ -6,6 +6,7 @@ from typing import Annotated
 
 from fastapi import APIRouter, Query
 
+from backend.api.access.declarations import needs
 from backend.api.dependencies import ServiceSettings, Store
 from backend.api.errors import problem_responses
 from backend.api.retention_schemas import (
@@ -26,6 +27,7 @@ router = APIRouter(prefix="/api/retention", tags=["retention"])
 
 
 @router.get("", responses=problem_responses(422))
+@needs("viewer")
 def preview_retention(
     store: Store,
     settings: ServiceSettings,
@@ -37,6 +39,7 @@ def preview_retention(
 
 
 @router.post("", responses=problem_responses(400, 403, 422))
+@needs("admin")
 def apply_retention_rule(rule: RetentionRule, store: Store, settings: ServiceSettings) -> RetentionRemoved:
     """Remove what a rule names, as it stands now; runs that move on meanwhile keep everything."""
     plan = plan_retention(store, settings, Rule(frozenset(rule.kinds), rule.older_than_days))

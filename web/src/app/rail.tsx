@@ -41,6 +41,12 @@ export function Rail({ isNarrow, onToggle }: { isNarrow: boolean; onToggle: () =
         ))}
       </div>
       <div className={classes.foot}>
+        <Tooltip label="Account" position="right" disabled={!isNarrow}>
+          <Link to="/account" className={classes.place} activeProps={{ 'aria-current': 'page' }} aria-label="Account">
+            <Icon name="person" size={17} />
+            <span className={classes.label}>Account</span>
+          </Link>
+        </Tooltip>
         <SchemeSwitch />
         <button
           type="button"
