@@ -38,6 +38,8 @@ class View:
     url: str
     socket_url: str
     origin: Origin
+    headers: dict[str, str]
+    """What shows who watches."""
 
 
 @contextmanager
@@ -78,12 +80,14 @@ def open_session(service: Service, port: int) -> View:
     url = service.get(f"/api/viewer-sessions/{session['id']}")["url"]
     address = str(service.client.base_url).rstrip("/")
     socket_url = address.replace("http", "ws") + url.rstrip("/")
-    return View(session["id"], url, socket_url, Origin(address))
+    headers = {"Authorization": service.client.headers["Authorization"]}
+    return View(session["id"], url, socket_url, Origin(address), headers)
 
 
 def dial(view: View, **options: object) -> ClientConnection:
     """Connect as the 3D page does."""
-    given = {"origin": view.origin, "subprotocols": [PROTOCOL], "proxy": None, "max_size": None} | options
+    given = {"origin": view.origin, "subprotocols": [PROTOCOL], "proxy": None, "max_size": None}
+    given |= {"additional_headers": view.headers} | options
     return connect(view.socket_url, **given)  # type: ignore[arg-type]
 
 
@@ -203,7 +207,7 @@ def test_a_wrong_token_is_refused_in_words(unused_service: Service):
 
 
 def test_a_wrong_token_opens_no_websocket(view: View):
-    stranger = View(view.session_id, view.url, f"{view.socket_url}x", view.origin)
+    stranger = View(view.session_id, view.url, f"{view.socket_url}x", view.origin, view.headers)
     with pytest.raises(InvalidStatus) as refused:
         dial(stranger)
     assert refused.value.response.status_code == 403
@@ -255,7 +259,7 @@ def test_viser_itself_is_reached_through_the_proxy(service: Service):
 
 
 def test_commands_and_states_pass_below_the_same_token(view: View):
-    control = View(view.session_id, view.url, f"{view.socket_url}/control", view.origin)
+    control = View(view.session_id, view.url, f"{view.socket_url}/control", view.origin, view.headers)
     with dial(control) as socket:
         socket.send('{"do": "pause"}')
         assert socket.recv() == '{"do": "pause"}'
@@ -263,7 +267,9 @@ def test_commands_and_states_pass_below_the_same_token(view: View):
 
 @pytest.mark.parametrize(("origin", "token_end"), [(Origin("http://evil.example"), ""), (None, "x")])
 def test_commands_of_strangers_are_refused(view: View, origin: Origin | None, token_end: str):
-    control = View(view.session_id, view.url, f"{view.socket_url}{token_end}/control", origin or view.origin)
+    control = View(
+        view.session_id, view.url, f"{view.socket_url}{token_end}/control", origin or view.origin, view.headers
+    )
     with pytest.raises(InvalidStatus) as refused:
         dial(control, subprotocols=None)
     assert refused.value.response.status_code == 403

@@ -24,6 +24,7 @@ from playwright.sync_api import Page, expect, sync_playwright
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from conftest import CHROMIUM_ARGUMENTS
 from served_product import WHOLE, serving
+from signed_in import cookies
 
 from backend.store.database import open_database
 from backend.store.files import register_file
@@ -90,6 +91,7 @@ def main() -> int:
         runs = make_runs(settings, options.models)
         service = serving(settings.home, free_port(), WHOLE, ("viewer_alive", "workers_alive"))
         with service as address, browsing(options.width, options.dark) as page:
+            page.context.add_cookies(cookies())  # type: ignore[arg-type]
             for picture in PICTURES:
                 if picture.task in runs and (not options.only or picture.name in options.only):
                     page.goto(f"{address}/runs/{runs[picture.task]}?tab=demonstrations")
