@@ -23,13 +23,16 @@ PIP := .venv/bin/python -m pip --disable-pip-version-check --quiet
 WEB_SOURCES := $(shell find web/src web/public -type f -not -name '*.test.*' 2>/dev/null)
 CLIENT := web/src/client/schema.gen.ts
 
-.PHONY: run test fuzz audit chaos bench pictures pictures-3d setup web client lock format clean help system
+.PHONY: run test test-all fuzz audit chaos bench pictures pictures-3d setup web client lock format clean help system
 
 run: setup ## Set everything up and serve the page; HOST and PORT say where
 	@exec .venv/bin/sldr serve --host $(HOST) --port $(PORT)
 
 test: setup ## Set everything up and run every check; PARTS="lint pytest" runs some
 	@.ci/checks.sh $(PARTS)
+
+test-all: setup ## The same, and then all tests at their full sample sizes (an hour)
+	@.ci/checks.sh all slow
 
 fuzz: setup ## Ask the API more than 20,000 things that nobody would, as each role (an hour)
 	@SLDR_FUZZ_EXAMPLES=$(FUZZ) .venv/bin/pytest tests/security/test_schema_as_each_role.py --timeout 0
@@ -72,7 +75,7 @@ clean: ## Remove everything that was made; trained runs stay
 help: ## List what can be made
 	@sed -nE 's/^([a-z0-9-]+):.*## (.*)/  make \1\t\2/p' Makefile | expand -t 16
 
-test fuzz bench pictures pictures-3d: purpose := test
+test test-all fuzz bench pictures pictures-3d: purpose := test
 system:
 	@.ci/system-packages.sh $(purpose)
 

@@ -21,6 +21,8 @@ import pytest
 FIND = Path(__file__).parents[1] / ".ci" / "find-postgres.sh"
 USER = "sldr"
 PATIENCE_S = 60.0
+PARTING_S = 1.0
+"""How long connections may take to end before their database is given up [s]."""
 SETTINGS = {
     "listen_addresses": "127.0.0.1",
     "fsync": "off",  # what a test writes need not outlive the machine
@@ -96,6 +98,36 @@ class PostgresServer:
         """Remove a database, whoever is still connected to it."""
         self._execute(f"DROP DATABASE {name} WITH (FORCE)")
 
+    def empty_database(self, name: str, revision: str) -> bool:
+        """Remove every row of a store; tell if it is as good as new, with tables of this revision and nobody on it."""
+        if not self._is_left_alone(name):
+            return False
+        with self._connect(name) as connection:
+            if connection.execute("SELECT version_num FROM alembic_version").fetchall() != [(revision,)]:
+                return False
+            tables = "SELECT tablename FROM pg_tables WHERE schemaname = 'public' AND tablename <> 'alembic_version'"
+            names = [row[0] for row in connection.execute(tables)]
+            held = " UNION ALL ".join(f"SELECT '{table}' WHERE EXISTS (SELECT FROM {table})" for table in names)
+            filled = [row[0] for row in connection.execute(held.encode())]
+            connection.execute("SET session_replication_role = replica")  # rows may go in any order
+            for table in filled:
+                connection.execute(f"DELETE FROM {table}".encode())
+            connection.execute(
+                "SELECT setval(format('%I', sequencename)::regclass, start_value, false) "
+                "FROM pg_sequences WHERE last_value IS NOT NULL"
+            )
+        return True
+
+    def _is_left_alone(self, name: str) -> bool:
+        """Wait a little for connections to end; tell if none is left."""
+        give_up_at = time.monotonic() + PARTING_S
+        with self._connect() as connection:
+            while connection.execute("SELECT 1 FROM pg_stat_activity WHERE datname = %s", [name]).fetchone():
+                if time.monotonic() > give_up_at:
+                    return False
+                time.sleep(0.005)
+        return True
+
     def remove(self) -> None:
         """Remove everything the server has written."""
         shutil.rmtree(self._directory)
@@ -122,9 +154,9 @@ class PostgresServer:
         with self._connect() as connection:
             connection.execute(statement.encode())
 
-    def _connect(self) -> psycopg.Connection:
+    def _connect(self, name: str = "postgres") -> psycopg.Connection:
         address = {"host": "127.0.0.1", "port": self._port, "user": USER, "password": self._password}
-        return psycopg.connect(**address, dbname="postgres", autocommit=True)
+        return psycopg.connect(**address, dbname=name, autocommit=True)
 
 
 def _find_programs() -> Path:

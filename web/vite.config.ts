@@ -38,6 +38,7 @@ export default defineConfig({
   build: { target: 'es2023' },
   test: {
     environment: 'jsdom',
+    isolate: false, // to load React and Mantine anew for each file takes longer than the tests
     setupFiles: ['./src/testing/setup.ts'],
     testTimeout: 20_000, // [ms] two busy cores render a form slowly
   },

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from fastapi import Depends, FastAPI
 from fastapi.routing import APIRoute
+from prometheus_client import CollectorRegistry
 from starlette.middleware.body_limit import RequestBodyLimitMiddleware
 from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddleware
 
@@ -24,6 +25,7 @@ from backend.api.errors import add_error_answers
 from backend.api.hosts import LOCAL, HostRule, OwnHost
 from backend.api.origins import SameOrigin
 from backend.api.pages import BUILT_PAGE, add_pages
+from backend.api.request_meter import RequestMeter, make_latencies
 from backend.api.routes import (
     account,
     accounts,
@@ -36,7 +38,10 @@ from backend.api.routes import (
     labels,
     launches,
     media,
+    monitoring,
+    notices,
     queue,
+    retention,
     run_actions,
     run_files,
     run_table,
@@ -53,6 +58,7 @@ from backend.store.access.entry import AccessMode
 from backend.store.database import open_database
 from backend.store.settings import Settings
 from backend.store.storage import FileStorage
+from backend.webhooks.sender import Sender
 
 GZIP_LEVEL = 5
 """Nearly as small as the smallest, several times as fast."""
@@ -65,6 +71,7 @@ SMALLEST_GZIP = 1024
 
 ROUTES = (
     health,
+    monitoring,
     auth,
     account,
     accounts,
@@ -81,6 +88,8 @@ ROUTES = (
     queue,
     workers,
     saved_views,
+    notices,
+    retention,
     viewer_sessions,
     compare,
     compare_exports,
@@ -135,6 +144,8 @@ def _add_guards(app: FastAPI, hosts: HostRule) -> None:
     app.add_middleware(SameOrigin)
     app.add_middleware(OwnHost, rule=hosts)
     app.add_middleware(RequestBodyLimitMiddleware, max_body_size=LARGEST_BODY)
+    app.state.registry = CollectorRegistry()
+    app.add_middleware(RequestMeter, latencies=make_latencies(app.state.registry))
     app.add_middleware(LargeBodies)
     app.add_middleware(Trail)
     app.add_middleware(SafeHeaders)
@@ -147,10 +158,21 @@ def _lifespan(settings: Settings, mode: AccessMode, passwords: Passwords | None)
         with viewer_proxy.viser_client() as viser:
             secret = load_secret(settings.secret_path)
             access = open_access(settings, secret, mode, passwords or Passwords())
-            files, memory = FileStorage(settings), ComparisonMemory()
-            app.state.service = Service(settings, database, files, ViewerTokens(secret), viser, memory, access)
+            sender = Sender(database, settings.local_webhooks)
+            app.state.service = Service(
+                settings,
+                database,
+                FileStorage(settings),
+                ViewerTokens(secret),
+                viser,
+                ComparisonMemory(),
+                sender,
+                access,
+            )
             forget_old_entries(database)
+            sender.start()
             yield
+            sender.stop()
         database.close()
 
     return lifespan

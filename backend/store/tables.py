@@ -17,6 +17,7 @@ from sqlalchemy import (
     String,
     Table,
     Text,
+    UniqueConstraint,
     false,
     literal_column,
 )
@@ -24,7 +25,7 @@ from sqlalchemy import (
 import backend.store.access.tables  # noqa: F401 - its tables are of the same metadata
 from backend.store.schema import ID_LENGTH, NAME_LENGTH, UtcDateTime, metadata
 
-SCHEMA_REVISION = "0009"
+SCHEMA_REVISION = "0010"
 """The migration that these tables correspond to."""
 
 AnyRow = Row[*tuple[Any, ...]]
@@ -304,3 +305,43 @@ media_jobs = Table(
     Column("ended_at", UtcDateTime),
     Index(None, "state", "created_at"),
 )
+
+webhooks = Table(
+    "webhooks",
+    metadata,
+    Column("id", String(ID_LENGTH), primary_key=True),
+    Column("url", Text, nullable=False),
+    Column("secret", String(64), nullable=False),
+    Column("events", JSON, nullable=False),
+    Column("created_at", UtcDateTime, nullable=False),
+)
+
+webhook_deliveries = Table(
+    "webhook_deliveries",
+    metadata,
+    Column("id", String(ID_LENGTH), primary_key=True),
+    Column("webhook_id", String(ID_LENGTH), ForeignKey("webhooks.id"), nullable=False),
+    Column("event", String(ID_LENGTH), nullable=False),
+    Column("subject", String(ID_LENGTH), nullable=False),
+    Column("occasion", String(64), nullable=False),
+    Column("body", Text, nullable=False),
+    Column("state", String(ID_LENGTH), nullable=False),
+    Column("tries", Integer, nullable=False, server_default="0"),
+    Column("not_before", UtcDateTime, nullable=False),
+    Column("problem", Text),
+    Column("created_at", UtcDateTime, nullable=False),
+    Column("ended_at", UtcDateTime),
+    UniqueConstraint("webhook_id", "event", "subject", "occasion"),
+    Index(None, "state", "not_before"),
+)
+
+file_removals = Table(
+    "file_removals",
+    metadata,
+    Column("run_id", String(ID_LENGTH), ForeignKey("runs.id"), primary_key=True),
+    Column("path", Text, primary_key=True),
+    Column("size", BigInteger, nullable=False),
+    Column("fence", Integer, nullable=False),
+    Column("marked_at", UtcDateTime, nullable=False),
+)
+"""Files that no row of `run_files` holds any more and whose bytes are to go."""

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
 from copy import deepcopy
 from typing import Any
@@ -16,6 +16,7 @@ from torch.nn.utils import get_total_norm
 
 from sldr_core.agent.losses import actor_loss, critic_losses, lowest_return, td_target
 from sldr_core.config import AgentConfig
+from sldr_core.nets.adam import Adam
 from sldr_core.nets.mlp import Mlp, MlpStack
 from sldr_core.nets.normalizer import Drift, Normalizer
 from sldr_core.nets.transitions import Transitions
@@ -57,8 +58,8 @@ class DdpgAgent:
         self._target_critics = deepcopy(self.critics).requires_grad_(False)
         self._weights = torch.tensor(stream_weights, device=device)
         self._lowest = torch.tensor(_lowest_targets(config, len(self._streams)), device=device)
-        self._actor_optimiser = torch.optim.Adam(self.actor.parameters(), lr=config.learning_rate, fused=True)
-        self._critic_optimiser = torch.optim.Adam(self.critics.parameters(), lr=config.learning_rate, fused=True)
+        self._actor_optimiser = Adam(self.actor.parameters(), lr=config.learning_rate, fused=True)
+        self._critic_optimiser = Adam(self.critics.parameters(), lr=config.learning_rate, fused=True)
 
     def features(self, obs: Tensor, goal: Tensor) -> Tensor:
         """Return normalised features `[..., F]`."""
@@ -68,6 +69,16 @@ class DdpgAgent:
     def act(self, obs: Tensor, goal: Tensor) -> Tensor:
         """Return the deterministic actions `[..., A]` of the online actor."""
         return self.actor(self.features(obs.to(self._device), goal.to(self._device))).cpu()
+
+    def frozen_policy(self) -> Callable[[Tensor, Tensor], Tensor]:
+        """Return what `act` does now; it goes on doing that while this agent learns."""
+        normalizer, actor = deepcopy(self.normalizer), deepcopy(self.actor).requires_grad_(False)
+
+        def act(obs: Tensor, goal: Tensor) -> Tensor:
+            seen = self._view.features(obs.to(self._device), goal.to(self._device))
+            return actor(normalizer(seen)).cpu()
+
+        return act
 
     @torch.no_grad()
     def values(self, obs: Tensor, goal: Tensor, action: Tensor) -> Tensor:

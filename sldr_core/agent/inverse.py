@@ -9,6 +9,7 @@ from torch import Tensor
 from torch.nn.utils import get_total_norm
 
 from sldr_core.config import AgentConfig
+from sldr_core.nets.adam import Adam
 from sldr_core.nets.mlp import Mlp
 from sldr_core.nets.normalizer import Normalizer
 from sldr_core.nets.transitions import Transitions
@@ -35,7 +36,7 @@ class InverseLearner:
         inputs = 2 * state_size
         self.normalizer = Normalizer(inputs).to(device)
         self.net = Mlp((inputs, *config.hidden_sizes, action_size), generator).to(device)
-        self._optimiser = torch.optim.Adam(self.net.parameters(), lr=config.learning_rate, fused=True)
+        self._optimiser = Adam(self.net.parameters(), lr=config.learning_rate, fused=True)
         self._device = device
         self._autocast = autocast
 

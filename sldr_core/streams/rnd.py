@@ -14,6 +14,7 @@ import torch
 from torch import Tensor, nn
 
 from sldr_core.config import AgentConfig, RndConfig
+from sldr_core.nets.adam import Adam
 from sldr_core.nets.mlp import Mlp
 from sldr_core.nets.normalizer import Normalizer
 from sldr_core.nets.transitions import Transitions
@@ -62,7 +63,7 @@ class RndStream:
     ) -> None:
         self.weight = config.weight
         self.nets = RndNets(view.size, config.outputs, agent, generator).to(device)
-        self._optimiser = torch.optim.Adam(self.nets.predictor.parameters(), lr=agent.learning_rate, fused=True)
+        self._optimiser = Adam(self.nets.predictor.parameters(), lr=agent.learning_rate, fused=True)
         self._view = view
         self._device = device
         self._autocast = autocast

@@ -55,6 +55,7 @@ PAGES = {
     "accounts": ("/accounts", "main table"),
     "sign in": ("/sign-in", "main h1"),
     "welcome": ("/welcome#sldr_unknown", "main [role=alert]"),
+    "settings": ("/settings", "main h2"),
 }
 """Address of each page, and what is there once it has drawn itself."""
 

@@ -38,7 +38,7 @@ def test_runs_end_as_if_nobody_had_killed_anything(settings: Settings) -> None:
 
 
 def test_a_crowd_at_one_store_locks_nobody_out(settings: Settings) -> None:
-    order = Crowd(seconds=3.0, apis=2, workers=2, clients=2, seed=SEED, cycles=20)
+    order = Crowd(seconds=1.5, apis=2, workers=2, clients=2, seed=SEED, cycles=10)
 
     finding = press(settings, order, print)
 
@@ -47,10 +47,10 @@ def test_a_crowd_at_one_store_locks_nobody_out(settings: Settings) -> None:
 
 @pytest.mark.parametrize("engine", ENGINES, scope="module")
 def test_each_run_of_a_long_queue_is_claimed_once(settings: Settings) -> None:
-    finding = measure_claims(settings, queued=300, claimers=3, say=print)
+    finding = measure_claims(settings, queued=120, claimers=3, say=print)
 
     assert finding.complaints == []
-    assert dict(finding.rows)["queued runs"] == "300"
+    assert dict(finding.rows)["queued runs"] == "120"
 
 
 def log(db, held: Claim, cycles: list[int], curve: list[float]) -> None:

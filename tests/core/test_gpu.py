@@ -13,6 +13,7 @@ from small_training import StoppingRecorder, assert_same_training, run, save_unt
 
 from sldr_core.agent import DdpgAgent, InverseLearner
 from sldr_core.config import METHODS, Phase, TrainConfig
+from sldr_core.nets.adam import Adam
 from sldr_core.nets.locomotion_model import load_locomotion_model
 from sldr_core.nets.transitions import Transitions
 from sldr_core.nets.views import view_of
@@ -90,8 +91,8 @@ def test_a_file_from_a_machine_with_a_gpu_is_measured_on_one_without(
 @pytest.fixture
 def elsewhere(monkeypatch: pytest.MonkeyPatch) -> torch.device:
     """Return a device whose tensors have no numbers, but which, like a GPU, refuses tensors that lie elsewhere."""
-    adam = torch.optim.Adam
-    monkeypatch.setattr(torch.optim, "Adam", lambda parameters, lr, fused: adam(parameters, lr=lr))
+    for module in ("agent.ddpg", "agent.inverse", "streams.rnd"):
+        monkeypatch.setattr(f"sldr_core.{module}.Adam", lambda parameters, lr, fused: Adam(parameters, lr=lr))
     monkeypatch.setattr(torch, "autocast", lambda *_, **__: nullcontext())
     return torch.device("meta")
 

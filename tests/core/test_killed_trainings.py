@@ -148,7 +148,7 @@ def test_a_training_that_is_killed_there_ends_with_the_same_bits(
     assert not list(tmp_path.glob(".*.tmp"))
 
 
-@pytest.mark.parametrize("task", ["FetchPush", "HandBlockRotate"])
+@pytest.mark.parametrize("task", ["FetchPush", pytest.param("HandBlockRotate", marks=pytest.mark.slow)])
 def test_a_robot_s_training_that_is_killed_at_any_moment_ends_with_the_same_bits(
     task: str, forked: Forked, dice: random.Random, tmp_path: Path
 ) -> None:

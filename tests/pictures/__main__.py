@@ -56,6 +56,7 @@ PAGES = {
     "configs": ("/compare/configs?runs={run_id},{other_id}", "main table"),
     "queue": ("/queue", "main li"),
     "workers": ("/workers", "main h2, main h3"),
+    "settings": ("/settings", "main h2"),
 }
 """Address of each page, and what is there once it has drawn itself."""
 

@@ -88,3 +88,15 @@ def test_a_test_that_fails_is_asked_once_more_alone(tree: Path, beside_others: i
 
     assert result.returncode == expected
     assert ("passed alone" in result.stderr) is (beside_others == 1 and alone == 0)
+
+
+def test_static_checks_run_beside_pytest_and_are_reported_in_their_order(tree: Path) -> None:
+    set_pytest(tree, 0, 0)
+    set_result(tree, "pyright", 1)
+
+    result = check(tree, "types", "lint", "pytest")
+
+    lines = result.stdout.splitlines()
+    assert [line for line in lines if line.startswith("== ")] == ["== lint", "== pytest", "== types", "== all checks"]
+    assert [line.split()[:2] for line in lines[-3:]] == [["types", "FAILED"], ["lint", "ok"], ["pytest", "ok"]]
+    assert result.stderr.startswith("Failed: types.")

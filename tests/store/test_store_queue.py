@@ -45,8 +45,8 @@ while (claimed := claim(db, sys.argv[1])) is not None:
 """
 
 
-def test_four_processes_claim_each_of_200_runs_once(db: Database, settings: Settings) -> None:
-    launched = launch(db, order(seeds=tuple(range(100)))) + launch(db, order(method="ddpg", seeds=tuple(range(100))))
+def test_four_processes_claim_each_of_80_runs_once(db: Database, settings: Settings) -> None:
+    launched = launch(db, order(seeds=tuple(range(40)))) + launch(db, order(method="ddpg", seeds=tuple(range(40))))
     processes = [
         subprocess.Popen(
             [sys.executable, "-c", CLAIM_ALL, f"worker-{number}", str(WORK_S)],

@@ -26,6 +26,8 @@ COMMANDS = {
     "backup": "Copy all runs and their files to one place, while everything runs.",
     "restore": "Bring back what backup has copied.",
     "list": "List tasks, methods or presets.",
+    "retention": "Make room: let go what ended runs no longer need.",
+    "doctor": "See whether everything here works, and how to mend what does not.",
 }
 
 BAD_INPUT = 2

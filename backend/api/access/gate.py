@@ -19,7 +19,7 @@ from backend.api.errors import ApiError, problem, problem_answer
 from backend.store.access.roles import allows
 from backend.store.errors import StoreUnavailable
 
-GUARDED = ("/api", "/viewer")
+GUARDED = ("/api", "/viewer", "/metrics")
 """Nothing below these answers to nobody, whether there is a route or not."""
 
 ENTRANCE = "/api/auth/enter"

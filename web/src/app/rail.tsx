@@ -5,7 +5,7 @@ import { SchemeSwitch } from '@/app/scheme-switch';
 import { Icon, type IconName } from '@/components/icon';
 import classes from './shell.module.css';
 
-type Place = '/' | '/launch' | '/studies' | '/compare' | '/queue' | '/workers';
+type Place = '/' | '/launch' | '/studies' | '/compare' | '/queue' | '/workers' | '/settings';
 
 const PLACES: readonly { to: Place; label: string; icon: IconName }[] = [
   { to: '/', label: 'Runs', icon: 'runs' },
@@ -14,6 +14,7 @@ const PLACES: readonly { to: Place; label: string; icon: IconName }[] = [
   { to: '/compare', label: 'Compare', icon: 'chart' },
   { to: '/queue', label: 'Queue', icon: 'queue' },
   { to: '/workers', label: 'Workers', icon: 'workers' },
+  { to: '/settings', label: 'Settings', icon: 'settings' },
 ];
 
 export function Rail({ isNarrow, onToggle }: { isNarrow: boolean; onToggle: () => void }) {

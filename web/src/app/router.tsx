@@ -75,6 +75,12 @@ const workers = createRoute({
   component: lazyRouteComponent(() => import('@/features/workers/workers-page'), 'WorkersPage'),
 });
 
+const settings = createRoute({
+  getParentRoute: () => root,
+  path: '/settings',
+  component: lazyRouteComponent(() => import('@/features/settings/settings-page'), 'SettingsPage'),
+});
+
 const compare = createRoute({
   getParentRoute: () => root,
   path: '/compare',
@@ -131,6 +137,7 @@ export function makeRouter(history?: RouterHistory) {
       configs,
       queue,
       workers,
+      settings,
       ...access,
     ]),
     history,

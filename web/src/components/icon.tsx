@@ -8,6 +8,7 @@ const SHAPES = {
   edit: 'M4 20l1-4.5L16.5 4 20 7.5 8.5 19z',
   queue: 'M9 6h11M9 12h11M9 18h11M4.5 4.5v3M3.5 6l1-1.5 1 1.5M4.5 10.5h.01M4.5 13.5h.01M4.5 18h.01',
   workers: 'M5 5h14v6H5zM5 13h14v6H5zM8.5 8h.01M8.5 16h.01',
+  settings: 'M4 7h9M17 7h3M13 5v4M4 12h3M11 12h9M7 10v4M4 17h11M19 17h1M15 15v4',
   person: 'M12 4a4 4 0 1 0 0 8 4 4 0 0 0 0-8zM4.5 20c.6-4 3.6-6 7.5-6s6.9 2 7.5 6',
   collapse: 'M11 7l-5 5 5 5M18 7l-5 5 5 5',
   expand: 'M6 7l5 5-5 5M13 7l5 5-5 5',

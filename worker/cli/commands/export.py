@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Literal, cast
+from typing import Annotated, Any, Literal, cast
 
 import tyro
 
@@ -25,7 +25,15 @@ from backend.store.runs import get_runs
 from backend.store.settings import load_settings
 from sldr_core.config import Phase
 from sldr_core.errors import InvalidConfig, UnknownName
+from worker.cli.commands.export_from_server import (
+    fetch_bundle,
+    fetch_exported,
+    fetch_figure,
+    fetch_recording,
+    find_named_server,
+)
 from worker.cli.commands.export_rerun import export_rerun
+from worker.cli.service import Server
 from worker.exports.exported_run import ExportedRun, load_exported
 
 FIGURES = ("svg", "pdf", "png", "csv", "tex")
@@ -48,10 +56,17 @@ class Chosen:
     """Only runs of the study with this id."""
     phase: Phase = "manipulation"
     """Which training."""
+    server: Server = None
+    """The service that has them, as http://127.0.0.1:8000 (default: SLDR_URL, else the store of this machine)."""
 
     def choice(self) -> RunChoice:
         """Return the choice as the store takes it."""
         return RunChoice(self.phase, self.task, self.method, self.preset, self.run, self.study)
+
+    def question(self) -> dict[str, Any]:
+        """Return the choice as a service takes it."""
+        names = {"task": self.task, "method": self.method, "preset": self.preset, "run": self.run}
+        return {"phase": self.phase, "study": self.study, **{name: list(given) for name, given in names.items()}}
 
 
 @dataclass(frozen=True)
@@ -76,6 +91,12 @@ class Shown:
         if not 0.5 <= self.level <= 0.999:
             raise InvalidConfig({"level": f"it must lie between 0.5 and 0.999, got {self.level}"})
         return CurveView(self.metric, self.x, self.statistic, self.level, self.seeds)
+
+    def question(self) -> dict[str, Any]:
+        """Return the view as a service takes it."""
+        view = self.view()
+        of_curves = {"metric": view.metric, "x": view.x, "statistic": view.statistic, "seeds": view.with_seeds}
+        return {"level": view.level, "width": self.width, **of_curves}
 
 
 Runs = tyro.conf.OmitArgPrefixes[Chosen]
@@ -107,6 +128,10 @@ def figure(out: Path, runs: Runs, view: View, kind: Literal["curves", "best"] = 
     form = out.suffix.removeprefix(".")
     if form not in FIGURES:
         raise UnknownName("kind of figure", form, FIGURES)
+    if (server := find_named_server(runs.server)) is not None:
+        _check_place(out)
+        fetch_figure(server, out, kind, runs.question() | view.question())
+        return _tell(out)
     with closing(open_database(load_settings())) as db:
         memory = ComparisonMemory()
         compare = compare_curves if kind == "curves" else compare_best
@@ -123,6 +148,10 @@ def bundle(out: Path, runs: Runs, view: View, anonymous: bool = False) -> int:
         view: How they are shown.
         anonymous: Leave out what tells who made it, and where.
     """
+    if (server := find_named_server(runs.server)) is not None:
+        _check_place(out)
+        fetch_bundle(server, out, anonymous, runs.question() | view.question())
+        return _tell(out)
     with closing(open_database(load_settings())) as db:
         memory, choice, shown = ComparisonMemory(), runs.choice(), view.view()
         curves = compare_curves(db, memory, choice, shown)
@@ -132,13 +161,18 @@ def bundle(out: Path, runs: Runs, view: View, anonymous: bool = False) -> int:
     return _write(out, make_bundle(parts))
 
 
-def rerun(run: tyro.conf.Positional[str], out: tyro.conf.Positional[Path]) -> int:
+def rerun(run: tyro.conf.Positional[str], out: tyro.conf.Positional[Path], server: Server = None) -> int:
     """Make the Rerun file of a run again from the store: its curves, episodes and log.
 
     Args:
         run: The id of the run.
         out: The .rrd file to write.
+        server: The service whose newest Rerun file of the run is copied instead (default: SLDR_URL, else the store).
     """
+    if (named := find_named_server(server)) is not None:
+        _check_place(out)
+        fetch_recording(named, run, out)
+        return _tell(out)
     return export_rerun(run, out)
 
 
@@ -172,6 +206,9 @@ def mlflow(uri: Annotated[str, tyro.conf.arg(metavar="URI")], runs: Runs) -> int
 
 
 def _exported(runs: Chosen) -> Iterator[ExportedRun]:
+    if (server := find_named_server(runs.server)) is not None:
+        yield from fetch_exported(server, runs.question())
+        return
     with closing(open_database(load_settings())) as db:
         for row in get_runs(db, _ids(db, runs)):
             yield load_exported(db, row)
@@ -195,8 +232,16 @@ def _figure_file(content: CurveComparison | BestModels, form: str, width: Width)
 
 
 def _write(out: Path, content: bytes) -> int:
+    _check_place(out)
+    out.write_bytes(content)
+    return _tell(out)
+
+
+def _check_place(out: Path) -> None:
     if not out.absolute().parent.is_dir():
         raise InvalidConfig({"out": f"there is no directory {out.absolute().parent}; make it first"})
-    out.write_bytes(content)
+
+
+def _tell(out: Path) -> int:
     print(out)
     return 0
