@@ -13,7 +13,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from backend.api.access.callers import Caller
 from backend.api.access.declarations import declaration_of
-from backend.api.access.redaction import redact
+from backend.redaction import redact
 from backend.store.access.audit import Deed, Outcome, write_entry
 from backend.store.access.entry import NOBODY
 from backend.store.database import Database
