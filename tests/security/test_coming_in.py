@@ -84,6 +84,7 @@ def test_the_first_admin_comes_in_with_the_printed_link(tmp_path: Path):
         greeting = greet(settings, address, "accounts")
         token = greeting.partition("/welcome#")[2].strip()
         with new_client(address) as browser:
+            browser.headers["origin"] = address
             assert browser.post("/api/auth/invitation", json={"token": token}).json()["role"] == "admin"
             short = browser.post("/api/auth/invitation/accept", json={"token": token, "password": "short"})
             assert short.status_code == 422
