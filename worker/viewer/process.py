@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import logging
 import multiprocessing
-import os
 import signal
 import sys
-import threading
+from functools import partial
 from multiprocessing.connection import Connection
 
 from sldr_core.errors import SldrError
 from worker.mortality import end_with_parent
+from worker.priority import give_way
 from worker.viewer.reports import Broken, Job
 
 OPENING_NICENESS = 5
@@ -34,7 +34,7 @@ def serve_session(job: Job, host: Connection) -> None:
         from worker.viewer.session import serve
 
         torch.set_num_threads(1)
-        serve(job, host, watched=_give_way)
+        serve(job, host, watched=partial(give_way, NICENESS))
     except BrokenPipeError:
         raise SystemExit(1) from None
     except SldrError as err:
@@ -44,21 +44,13 @@ def serve_session(job: Job, host: Connection) -> None:
         host.send(Broken(f"The 3D view broke down ({type(err).__name__}: {err})."))
 
 
-def _give_way() -> None:
-    """Make every thread gentler; on Linux each has a niceness of its own, and new ones have that of their maker."""
-    for thread in threading.enumerate():
-        if thread.native_id is not None:
-            already = os.getpriority(os.PRIO_PROCESS, thread.native_id)
-            os.setpriority(os.PRIO_PROCESS, thread.native_id, max(already, NICENESS))
-
-
 def _end_with_host() -> None:
     """Make this process gentle, deaf to Ctrl-C (the host ends it in order), and mortal with its host.
 
     Its parent is the process it was forked from, which ends with the host.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    os.nice(OPENING_NICENESS)
+    give_way(OPENING_NICENESS)
     end_with_parent()
     host = multiprocessing.parent_process()
     if host is None or not host.is_alive():
