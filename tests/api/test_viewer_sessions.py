@@ -24,6 +24,7 @@ from websockets.typing import Origin, Subprotocol
 from backend.api import viewer_proxy
 from backend.api.tokens import TOKEN_LIFETIME, BadToken, ViewerTokens, load_secret
 from backend.store import viewer_sessions
+from backend.store.launches import LaunchOrder, launch
 
 PROTOCOL = Subprotocol("viser-v1.1.1")
 BROWSER = {"accept": "text/html"}
@@ -297,3 +298,46 @@ def test_a_policy_of_another_task_cannot_stand_beside(service: Service, view: Vi
     answer = service.client.post("/api/viewer-sessions", json=body)
     assert (answer.status_code, problem_fields(answer)) == (409, ["beside.run_id"])
     assert f"Run {other} learns FetchSlide" in answer.json()["problems"][0]["message"]
+
+
+def test_a_checkpoint_of_another_task_cannot_stand_beside(service: Service, view: View):
+    run_id = service.get(f"/api/viewer-sessions/{view.session_id}")["run_id"]
+    [other] = service.launch(task="FetchSlide")
+    service.write_file(service.claim(), "checkpoint.pt", b"checkpoint")
+    body = {"kind": "live", "run_id": run_id, "beside": {"run_id": other, "policy": "checkpoint.pt"}}
+    answer = service.client.post("/api/viewer-sessions", json=body)
+    assert (answer.status_code, problem_fields(answer)) == (409, ["beside.run_id"])
+
+
+def inspect(service: Service, run_id: str) -> tuple[int, str]:
+    """Ask for the demonstrations of a run; return the status and the sentence that refuses it."""
+    answer = service.client.post("/api/viewer-sessions", json={"kind": "inspector", "run_id": run_id})
+    return answer.status_code, answer.json()["problems"][0]["message"]
+
+
+def test_the_demonstrations_of_an_unknown_run_are_not_found(unused_service: Service):
+    status, sentence = inspect(unused_service, "nope")
+    assert status == 404
+    assert "nope" in sentence
+
+
+def test_a_robot_s_run_has_no_demonstrations(service: Service):
+    [run_id] = service.launch()
+    status, sentence = inspect(service, run_id)
+    assert status == 409
+    assert sentence == f"In run {run_id} the robot acts; demonstrations are those of locomotion runs."
+
+
+def test_before_its_first_test_a_locomotion_run_has_no_model(service: Service):
+    [run_id] = launch(service.database, LaunchOrder("FetchPush", "locomotion", "her", (0,), "smoke"))
+    service.write_file(service.claim(), "checkpoint.pt", b"checkpoint")
+    status, sentence = inspect(service, run_id)
+    assert status == 409
+    assert sentence == f"Run {run_id} has no locomotion model yet; wait for its first test."
+
+
+def test_no_checkpoint_can_be_chosen_for_demonstrations(service: Service):
+    [run_id] = service.launch()
+    body = {"kind": "inspector", "run_id": run_id, "policy": "checkpoint.pt"}
+    answer = service.client.post("/api/viewer-sessions", json=body)
+    assert (answer.status_code, problem_fields(answer)) == (422, ["policy"])

@@ -34,6 +34,20 @@ def test_it_is_nicer_and_leaves_its_session_where_it_can(leads: bool) -> None:
     assert in_a_process(TELL, leads) == f"7 {not leads}"
 
 
+def test_it_can_give_way_further_with_all_its_threads_but_not_back() -> None:
+    code = """import os, threading
+from worker.priority import give_way
+told = threading.Event()
+other = threading.Thread(target=told.wait)
+other.start()
+for niceness in (3, 9, 5):
+    give_way(niceness)
+print([os.getpriority(os.PRIO_PROCESS, thread) for thread in (0, other.native_id)])
+told.set()"""
+
+    assert in_a_process(code, leads=False) == "[9, 9]"
+
+
 @pytest.mark.skipif(not AUTOGROUP.exists(), reason="this system does not group processes by session")
 def test_its_session_is_nicer_and_this_one_is_not() -> None:
     before = AUTOGROUP.read_text()
