@@ -22,6 +22,7 @@ COMMANDS = {
     "replay": "Simulate recorded episodes again and compare every bit.",
     "render": "Draw the picture of a task.",
     "export": "Draw figures of runs, or write runs for other tools: Rerun, TensorBoard, MLflow.",
+    "accounts": "List who may sign in, or make a one-time link for somebody.",
     "backup": "Copy all runs and their files to one place, while everything runs.",
     "restore": "Bring back what backup has copied.",
     "list": "List tasks, methods or presets.",

@@ -12,14 +12,11 @@ from backend.api.access.passwords import Passwords
 from backend.api.access.throttle import Throttle
 from backend.store.access import api_tokens, login_sessions
 from backend.store.access.accounts import Account
-from backend.store.access.entry import AccessMode
+from backend.store.access.entry import LOCAL_NAME, AccessMode
 from backend.store.access.local_token import load_local_token
 from backend.store.access.roles import Role, lesser
 from backend.store.database import Database
 from backend.store.settings import Settings
-
-LOCAL_NAME = "local"
-"""Stands for whoever came with the token of a server on loopback; no account can have this name."""
 
 
 @dataclass(frozen=True)
