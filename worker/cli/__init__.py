@@ -24,7 +24,8 @@ COMMANDS = {
     "export": "Draw figures of runs, or write runs for other tools: Rerun, TensorBoard, MLflow.",
     "backup": "Copy all runs and their files to one place, while everything runs.",
     "restore": "Bring back what backup has copied.",
-    "list": "List tasks, methods or presets.",
+    "list": "List tasks, methods, presets or shipped locomotion models.",
+    "zoo": "Put locomotion models into the zoo, measured.",
 }
 
 BAD_INPUT = 2

@@ -12,6 +12,7 @@ import tyro
 
 from backend.store import launches
 from backend.store.database import Database, open_database
+from backend.store.locomotion import ZOO
 from backend.store.run_plans import PlannedRun
 from backend.store.settings import load_settings
 from backend.store.studies.estimate import Estimate, estimate_study
@@ -19,6 +20,7 @@ from backend.store.studies.launch import create_study, preview_study
 from backend.store.studies.plan import Standing, StudyPlan
 from backend.store.studies.spec import StudySpec
 from backend.store.studies.templates import TEMPLATES, Template
+from backend.store.zoo_runs import ZooShelf
 from sldr_core.config import LOCOMOTION_METHOD, Phase, TrainConfig
 from sldr_core.errors import InvalidConfig, UnknownName
 from worker.cli.seeds import parse_seeds
@@ -50,6 +52,8 @@ class Arguments:
     """Keep the runs together as a study of this name."""
     template: Annotated[str | None, tyro.conf.arg(metavar="NAME", help_behavior_hint="")] = None
     """Begin with a study that comes with the product: paper, paper-fetch ...; other options then change it."""
+    locomotion: str | None = None
+    """Where locomotion models come from: zoo, train, or ids of locomotion runs, separated by commas (default: zoo)."""
     dry_run: bool = False
     """Say what would be queued, and queue nothing."""
 
@@ -59,30 +63,32 @@ def main(arguments: Sequence[str]) -> int:
     given = tyro.cli(Arguments, prog="sldr launch", args=list(arguments))
     is_study = given.study is not None or given.template is not None
     asked = _study(given) if is_study else _order(given)
-    with closing(open_database(load_settings())) as db:
+    settings = load_settings()
+    shelf = ZooShelf(settings)
+    with closing(open_database(settings)) as db:
         if isinstance(asked, launches.LaunchOrder):
-            _launch(db, asked, given.dry_run)
+            _launch(db, asked, shelf, given.dry_run)
         else:
-            _launch_study(db, *asked, given.dry_run)
+            _launch_study(db, *asked, shelf, given.dry_run)
     return 0
 
 
-def _launch(db: Database, order: launches.LaunchOrder, dry_run: bool) -> None:
-    plan = launches.plan_launch(db, order)
+def _launch(db: Database, order: launches.LaunchOrder, shelf: ZooShelf, dry_run: bool) -> None:
+    plan = launches.plan_launch(db, order, shelf)
     for planned in plan:
-        print(_line("new" if planned.reused_run_id is None else "reused", planned))
+        print(_line(_standing(planned), planned))
     if dry_run:
         return
-    for planned, run_id in zip(plan, launches.launch(db, order), strict=True):
+    for planned, run_id in zip(plan, launches.launch(db, order, shelf), strict=True):
         if planned.reused_run_id is None:
-            print(f"queued {run_id}")
+            print(f"{'queued' if planned.model is None else 'imported'} {run_id}")
 
 
-def _launch_study(db: Database, name: str, spec: StudySpec, dry_run: bool) -> None:
-    plan = preview_study(db, spec)
+def _launch_study(db: Database, name: str, spec: StudySpec, shelf: ZooShelf, dry_run: bool) -> None:
+    plan = preview_study(db, spec, shelf=shelf)
     print("\n".join(_study_lines(plan, estimate_study(db, plan))))
     if not dry_run:
-        launched = create_study(db, name, spec)
+        launched = create_study(db, name, spec, shelf=shelf)
         print(f"Study {launched.study_id} '{name}': {launched.queued} runs queued, {launched.joined} reused.")
 
 
@@ -98,6 +104,7 @@ def _order(given: Arguments) -> launches.LaunchOrder:
         seeds=parse_seeds(given.seeds or "0"),
         preset=given.preset or "quick",
         overrides=parse_settings(given.settings),
+        locomotion=given.locomotion or ZOO,
     )
 
 
@@ -113,6 +120,7 @@ def _study(given: Arguments) -> tuple[str, StudySpec]:
         "seeds": None if given.seeds is None else parse_seeds(given.seeds),
         "preset": given.preset,
         "overrides": parse_settings(given.settings),
+        "locomotion": given.locomotion or ZOO,
     }
     name = given.study or (template.title if template else "")
     return name, replace(spec, **{axis: value for axis, value in changes.items() if value})
@@ -124,6 +132,12 @@ def _find_template(name: str) -> Template:
     return TEMPLATES[name]
 
 
+def _standing(run: PlannedRun) -> str:
+    if run.reused_run_id is not None:
+        return "reused"
+    return "new" if run.model is None else "zoo"
+
+
 def _line(standing: str, run: PlannedRun) -> str:
     return f"{standing:8} {run.task:18} {run.phase:13} {run.method:10} seed {run.seed}"
 
@@ -131,7 +145,7 @@ def _line(standing: str, run: PlannedRun) -> str:
 def _study_lines(plan: StudyPlan, estimate: Estimate) -> Iterable[str]:
     """Return what a study would do, cell by cell."""
     for run in plan.locomotion:
-        yield _line("new" if run.reused_run_id is None else "reused", run)
+        yield _line(_standing(run), run)
     for cell in plan.spec.cells:
         standings = Counter(planned.standing for planned in plan.places if planned.place.cell == cell)
         told = ", ".join(f"{count} {WORDS[standing]}" for standing, count in standings.items())
