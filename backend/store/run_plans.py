@@ -8,14 +8,14 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import Any
 
-from sqlalchemy import Connection, func, insert, select
+from sqlalchemy import Connection, func, insert, or_, select
 
 from backend.store.dependents import why_blocked
 from backend.store.locomotion import LocomotionWish, find_sources
 from backend.store.order import last_position
 from backend.store.states import Event, RunState, append_event
 from backend.store.tables import AnyRow, run_needs, runs
-from backend.store.zoo_runs import ZooShelf, import_model
+from backend.store.zoo_runs import ZOO_TAG, ZooShelf, import_model
 from sldr_core.config import Phase, TrainConfig, config_hash, config_to_dict, settings_hash
 from sldr_core.zoo.index import ZooModel
 
@@ -109,6 +109,8 @@ def find_serving(conn: Connection, digests: Sequence[str]) -> dict[str, str]:
             runs.c.state.not_in(lost),
             runs.c.cancel_requested.is_(False),
             runs.c.deleted_at.is_(None),
+            # What came in a study file is there to be looked at; nobody here can vouch for it.
+            or_(runs.c.origin.is_(None), runs.c.origin == ZOO_TAG),
         )
         .group_by(runs.c.config_hash)
         .subquery()

@@ -26,7 +26,7 @@ from sqlalchemy import (
     literal_column,
 )
 
-SCHEMA_REVISION = "0008"
+SCHEMA_REVISION = "0011"
 """The migration that these tables correspond to."""
 
 AnyRow = Row[*tuple[Any, ...]]
@@ -105,6 +105,7 @@ runs = Table(
     Column("ended_at", UtcDateTime),
     Column("deleted_at", UtcDateTime),
     Column("notes", Text),
+    Column("origin", String(64)),
     Index(None, "state", "number"),
     Index(None, "state", "rank", "queue_position", "number"),
     Index(None, "queue_position"),

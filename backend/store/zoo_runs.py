@@ -112,6 +112,7 @@ def _run(run_id: str, model: ZooModel) -> dict[str, Any]:
         "state": RunState.SUCCEEDED,
         "success_rate": model.measured.success_rate,
         "attempt": IMPORTED_ATTEMPT,
+        "origin": ZOO_TAG,
     }
 
 
