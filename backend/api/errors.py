@@ -23,6 +23,7 @@ DESCRIPTIONS = {
     403: "Not allowed.",
     404: "It does not exist.",
     409: "Its state does not allow this.",
+    413: "It is longer than what is taken.",
     416: "The range lies outside the file.",
     422: "A field or setting cannot work.",
     500: "An error of the service itself.",

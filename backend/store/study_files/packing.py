@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import platform
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from importlib.metadata import version
@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 from zipfile import ZIP_DEFLATED, ZIP_STORED, ZipFile
 
-from sqlalchemy import select
+from sqlalchemy import Connection, select
 
 from backend.store.database import Database
 from backend.store.errors import Refused
@@ -62,6 +62,21 @@ class Packed:
     """Of the file [bytes]."""
 
 
+@dataclass(frozen=True)
+class Members:
+    """The runs of a study that go into its file."""
+
+    study: AnyRow
+    places: Mapping[str, Place]
+    """Where runs stand, by their ids, also those that are left out."""
+    objects: Sequence[AnyRow]
+    """Locomotion runs that gave a model."""
+    robots: Sequence[AnyRow]
+    needs: Mapping[str, Sequence[str]]
+    """Ids of the locomotion runs that a run has learnt from."""
+    machine: str
+
+
 def pack_study(db: Database, settings: Settings, study_id: str, out: Path) -> Packed:
     """Write a study file.
 
@@ -72,44 +87,50 @@ def pack_study(db: Database, settings: Settings, study_id: str, out: Path) -> Pa
         BadFile: it has changed since it was registered.
         FilesUnavailable: the shared place cannot be read just now.
     """
-    with db.read() as conn:
-        study = find_study(conn, study_id)
-        members = conn.execute(select(study_runs).where(study_runs.c.study_id == study_id)).all()
-        places = {
-            row.run_id: Place(task=row.task, method=row.method, variant=row.variant, seed=row.seed) for row in members
-        }
-        done = (runs.c.state == RunState.SUCCEEDED, runs.c.deleted_at.is_(None))
-        robots = conn.execute(select(runs).where(runs.c.id.in_(places), *done).order_by(runs.c.number)).all()
-        needs = conn.execute(select(run_needs).where(run_needs.c.run_id.in_([row.id for row in robots]))).all()
-        needed = {row.needs_run_id for row in needs}
-        objects = conn.execute(select(runs).where(runs.c.id.in_(needed), *done).order_by(runs.c.number)).all()
-        machine = _machine(conn.execute(select(attempts.c.host).where(attempts.c.run_id.in_([*places]))).scalars())
-    if not robots:
-        raise Refused(f"No run of study '{study.name}' has succeeded yet; export it once one has.")
-    storage, there = FileStorage(settings), {row.id for row in objects}
-    edges: dict[str, list[str]] = {}
-    for row in needs:
-        if row.needs_run_id in there:
-            edges.setdefault(row.run_id, []).append(row.needs_run_id)
+    members = _find_members(db, study_id)
+    if not members.robots:
+        raise Refused(f"No run of study '{members.study.name}' has succeeded yet; export it once one has.")
+    storage, packed_runs = FileStorage(settings), (*members.objects, *members.robots)
 
     def write(path: Path) -> None:
         with ZipFile(path, "w", ZIP_DEFLATED, compresslevel=9) as archive:
-            records = [
-                _pack_run(db, storage, archive, row, edges.get(row.id, []), places.get(row.id))
-                for row in (*objects, *robots)
-            ]
+            records = [_pack_run(db, storage, archive, row, members) for row in packed_runs]
             content = StudyFile(
                 format=FORMAT,
                 made_at=datetime.now(UTC),
                 versions={package: version(package) for package in PACKAGES},
-                machine=machine,
-                study=StudyRecord(name=study.name, note=study.note, spec=_spec(study.spec)),
+                machine=members.machine,
+                study=StudyRecord(name=members.study.name, note=members.study.note, spec=_spec(members.study.spec)),
                 runs=records,
             )
             archive.writestr(STUDY_MEMBER, content.model_dump_json(indent=1))
 
     write_atomically(out, write)
-    return Packed(len(robots) + len(objects), len(places) - len(robots), out.stat().st_size)
+    return Packed(len(packed_runs), len(members.places) - len(members.robots), out.stat().st_size)
+
+
+def _find_members(db: Database, study_id: str) -> Members:
+    with db.read() as conn:
+        study = find_study(conn, study_id)
+        rows = conn.execute(select(study_runs).where(study_runs.c.study_id == study_id)).all()
+        places = {
+            row.run_id: Place(task=row.task, method=row.method, variant=row.variant, seed=row.seed) for row in rows
+        }
+        robots = _succeeded(conn, places)
+        pairs = conn.execute(select(run_needs).where(run_needs.c.run_id.in_([row.id for row in robots]))).all()
+        objects = _succeeded(conn, {pair.needs_run_id for pair in pairs})
+        hosts = conn.execute(select(attempts.c.host).where(attempts.c.run_id.in_([*places]))).scalars().all()
+    there = {row.id for row in objects}
+    needs = {
+        row.id: [pair.needs_run_id for pair in pairs if pair.run_id == row.id and pair.needs_run_id in there]
+        for row in robots
+    }
+    return Members(study, places, objects, robots, needs, _machine(hosts))
+
+
+def _succeeded(conn: Connection, ids: Collection[str]) -> Sequence[AnyRow]:
+    done = (runs.c.state == RunState.SUCCEEDED, runs.c.deleted_at.is_(None))
+    return conn.execute(select(runs).where(runs.c.id.in_(list(ids)), *done).order_by(runs.c.number)).all()
 
 
 def _spec(values: Mapping[str, Any]) -> SpecRecord:
@@ -120,9 +141,7 @@ def _spec(values: Mapping[str, Any]) -> SpecRecord:
     )
 
 
-def _pack_run(
-    db: Database, storage: FileStorage, archive: ZipFile, row: AnyRow, needs: Sequence[str], place: Place | None
-) -> RunRecord:
+def _pack_run(db: Database, storage: FileStorage, archive: ZipFile, row: AnyRow, members: Members) -> RunRecord:
     curves = json.dumps(_curves(db, row.id).model_dump(), separators=(",", ":")).encode()
     archive.writestr(metrics_member(row.id), curves)
     files = _wanted(list_files(db, row.id))
@@ -144,8 +163,8 @@ def _pack_run(
         created_at=row.created_at,
         started_at=row.started_at,
         ended_at=row.ended_at,
-        needs=list(needs),
-        place=place,
+        needs=list(members.needs.get(row.id, ())),
+        place=members.places.get(row.id),
         progress=None if progress is None else ProgressRecord(**_fields(ProgressRecord, progress)),
         events=events,
         episodes=listed,
@@ -205,7 +224,7 @@ def _fields(record: type[EpisodeRecord | EventRecord | ProgressRecord], row: Any
     return {name: row[name] for name in record.model_fields}
 
 
-def _machine(hosts: Any) -> str:
+def _machine(hosts: Sequence[str | None]) -> str:
     """Return what trained, in a few words that name nobody."""
     count = len(set(hosts))
     return f"{platform.machine()}, {count or 1} machine{'s' if count > 1 else ''}"

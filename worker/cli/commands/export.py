@@ -23,6 +23,7 @@ from backend.store.compared_runs import RunChoice, find_compared_runs, read_conf
 from backend.store.database import Database, open_database
 from backend.store.runs import get_runs
 from backend.store.settings import load_settings
+from backend.store.study_files.packing import pack_study
 from sldr_core.config import Phase
 from sldr_core.errors import InvalidConfig, UnknownName
 from worker.cli.commands.export_rerun import export_rerun
@@ -83,11 +84,12 @@ View = tyro.conf.OmitArgPrefixes[Shown]
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Run the command; `--rerun RUN OUT` is short for `rerun RUN OUT`."""
-    given = ["rerun", *arguments[1:]] if arguments[:1] == ["--rerun"] else list(arguments)
+    """Run the command; `--rerun RUN OUT` and `--study ID OUT` may be written with dashes, too."""
+    given = [arguments[0][2:], *arguments[1:]] if arguments[:1] in (["--rerun"], ["--study"]) else list(arguments)
     kinds: dict[str, Callable[..., int]] = {
         "figure": figure,
         "bundle": bundle,
+        "study": study,
         "rerun": rerun,
         "tensorboard": tensorboard,
         "mlflow": mlflow,
@@ -130,6 +132,22 @@ def bundle(out: Path, runs: Runs, view: View, anonymous: bool = False) -> int:
         ids = [member.run_id for panel in curves.panels for curve in panel.curves for member in curve.members]
         parts = Bundle(curves, best, read_configs(db, ids), anonymous, view.width)
     return _write(out, make_bundle(parts))
+
+
+def study(study: tyro.conf.Positional[str], out: tyro.conf.Positional[Path]) -> int:
+    """Pack a study into one file that `sldr import` takes in elsewhere: curves, configs, policies, a few episodes.
+
+    Args:
+        study: The id of the study.
+        out: The .zip file to write.
+    """
+    _check_directory(out)
+    settings = load_settings()
+    with closing(open_database(settings)) as db:
+        packed = pack_study(db, settings, study, out)
+    left_out = f", {packed.left_out} places without a run that has succeeded left out" if packed.left_out else ""
+    print(f"{out}: {packed.runs} runs, {packed.size / 1e6:.1f} MB{left_out}")
+    return 0
 
 
 def rerun(run: tyro.conf.Positional[str], out: tyro.conf.Positional[Path]) -> int:
@@ -194,9 +212,13 @@ def _figure_file(content: CurveComparison | BestModels, form: str, width: Width)
     return drawn
 
 
-def _write(out: Path, content: bytes) -> int:
+def _check_directory(out: Path) -> None:
     if not out.absolute().parent.is_dir():
         raise InvalidConfig({"out": f"there is no directory {out.absolute().parent}; make it first"})
+
+
+def _write(out: Path, content: bytes) -> int:
+    _check_directory(out)
     out.write_bytes(content)
     print(out)
     return 0
