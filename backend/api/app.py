@@ -33,6 +33,7 @@ from backend.api.routes import (
     runs,
     saved_views,
     studies,
+    study_files,
     viewer_sessions,
     workers,
 )
@@ -72,6 +73,7 @@ def create_app(settings: Settings, page: Path = BUILT_PAGE, hosts: HostRule = LO
         choices,
         launches,
         studies,
+        study_files,
         run_actions,
         labels,
         run_table,
