@@ -13,6 +13,7 @@ export function startServer(): FakeServer {
     .on('GET /healthz', () => ({ body: { status: 'ok', version: '0', workers_alive: 1, viewer_alive: true } }))
     .on('GET /api/choices', () => ({ body: CHOICES }))
     .on('GET /api/defaults', () => ({ body: DEFAULTS }))
+    .on('GET /api/study-files/sample', () => ({ body: { size: null } }))
     .on('GET /api/studies/templates', () => ({ body: { templates: [TEMPLATE] } }))
     .on('GET /api/runs', () => ({ body: { runs: [], values: [], next_cursor: null, total: 0 } }))
     .on('GET /api/tags', () => ({ body: { tags: [] } }))
