@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import closing
+from collections.abc import Callable, Generator, Iterator, Sequence
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Annotated, Literal, cast
 
 import tyro
@@ -19,16 +20,20 @@ from backend.figures.csv_tables import best_csv, curves_csv
 from backend.figures.drawing import Drawing, Format, draw_apart
 from backend.figures.latex import best_latex, curves_latex
 from backend.figures.styles import Width
+from backend.samples import sample_study
 from backend.store.compared_runs import RunChoice, find_compared_runs, read_configs
 from backend.store.database import Database, open_database
 from backend.store.runs import get_runs
-from backend.store.settings import load_settings
+from backend.store.settings import Settings, load_settings, sqlite_url
 from backend.store.study_files.packing import pack_study
+from backend.store.study_files.placing import import_study
 from sldr_core.config import Phase
-from sldr_core.errors import InvalidConfig, UnknownName
+from sldr_core.errors import BadFile, InvalidConfig, UnknownName
 from worker.cli.commands.export_rerun import export_rerun
 from worker.exports.exported_run import ExportedRun, load_exported
 
+SAMPLE = "sample"
+"""Stands for the study file that comes with the product."""
 FIGURES = ("svg", "pdf", "png", "csv", "tex")
 Many = tyro.conf.UseAppendAction[tuple[str, ...]]
 
@@ -49,6 +54,8 @@ class Chosen:
     """Only runs of the study with this id."""
     phase: Phase = "manipulation"
     """Which training."""
+    study_file: Annotated[Path | None, tyro.conf.arg(metavar="FILE", help_behavior_hint="")] = None
+    """Take the runs of this study file instead of the store's; "sample" is the one that comes with the product."""
 
     def choice(self) -> RunChoice:
         """Return the choice as the store takes it."""
@@ -77,6 +84,24 @@ class Shown:
         if not 0.5 <= self.level <= 0.999:
             raise InvalidConfig({"level": f"it must lie between 0.5 and 0.999, got {self.level}"})
         return CurveView(self.metric, self.x, self.statistic, self.level, self.seeds)
+
+
+@contextmanager
+def _opened(chosen: Chosen) -> Generator[Database]:
+    """Lend the store, or one that holds nothing but a study file, for as long as the block lasts."""
+    if chosen.study_file is None:
+        with closing(open_database(load_settings())) as db:
+            yield db
+        return
+    source = sample_study() if str(chosen.study_file) == SAMPLE else chosen.study_file
+    if source is None or not source.is_file():
+        raise BadFile(f"There is no study file {chosen.study_file}; give one that `sldr export study` has written.")
+    with TemporaryDirectory(prefix="sldr-study-") as name:
+        home = Path(name)
+        settings = Settings(home=home, database_url=sqlite_url(home))
+        with closing(open_database(settings)) as db:
+            import_study(db, settings, source, str(source))
+            yield db
 
 
 Runs = tyro.conf.OmitArgPrefixes[Chosen]
@@ -109,7 +134,7 @@ def figure(out: Path, runs: Runs, view: View, kind: Literal["curves", "best"] = 
     form = out.suffix.removeprefix(".")
     if form not in FIGURES:
         raise UnknownName("kind of figure", form, FIGURES)
-    with closing(open_database(load_settings())) as db:
+    with _opened(runs) as db:
         memory = ComparisonMemory()
         compare = compare_curves if kind == "curves" else compare_best
         content = compare(db, memory, runs.choice(), view.view())
@@ -125,7 +150,7 @@ def bundle(out: Path, runs: Runs, view: View, anonymous: bool = False) -> int:
         view: How they are shown.
         anonymous: Leave out what tells who made it, and where.
     """
-    with closing(open_database(load_settings())) as db:
+    with _opened(runs) as db:
         memory, choice, shown = ComparisonMemory(), runs.choice(), view.view()
         curves = compare_curves(db, memory, choice, shown)
         best = compare_best(db, memory, choice, shown)
@@ -190,7 +215,7 @@ def mlflow(uri: Annotated[str, tyro.conf.arg(metavar="URI")], runs: Runs) -> int
 
 
 def _exported(runs: Chosen) -> Iterator[ExportedRun]:
-    with closing(open_database(load_settings())) as db:
+    with _opened(runs) as db:
         for row in get_runs(db, _ids(db, runs)):
             yield load_exported(db, row)
 
