@@ -8,6 +8,8 @@ HOST ?= 127.0.0.1
 PORT ?= 8000
 # The parts of the check to run; see .ci/checks.sh.
 PARTS ?= all
+# Requests that `make fuzz` makes up for each operation, each sent as nobody and as three roles.
+FUZZ ?= 70
 # Options of `make chaos`; `make chaos CHAOS=--help` lists them.
 CHAOS ?=
 # Options of `make bench`; `make bench BENCH=--help` lists them.
@@ -21,7 +23,7 @@ PIP := .venv/bin/python -m pip --disable-pip-version-check --quiet
 WEB_SOURCES := $(shell find web/src web/public -type f -not -name '*.test.*' 2>/dev/null)
 CLIENT := web/src/client/schema.gen.ts
 
-.PHONY: run test test-all chaos bench pictures pictures-3d setup web client lock format clean help system
+.PHONY: run test test-all fuzz audit chaos bench pictures pictures-3d setup web client lock format clean help system
 
 run: setup ## Set everything up and serve the page; HOST and PORT say where
 	@exec .venv/bin/sldr serve --host $(HOST) --port $(PORT)
@@ -31,6 +33,12 @@ test: setup ## Set everything up and run every check; PARTS="lint pytest" runs s
 
 test-all: setup ## The same, and then all tests at their full sample sizes (an hour)
 	@.ci/checks.sh all slow
+
+fuzz: setup ## Ask the API more than 20,000 things that nobody would, as each role (an hour)
+	@SLDR_FUZZ_EXAMPLES=$(FUZZ) .venv/bin/pytest tests/security/test_schema_as_each_role.py --timeout 0
+
+audit: setup ## Ask the registries whether a dependency has a known weakness
+	@.ci/audit.sh
 
 chaos: setup ## Kill, crowd and hurry a service; the results go into docs/reliability.md (many minutes)
 	@PYTHONPATH=tests .venv/bin/python tests/chaos --write docs/reliability.md $(CHAOS)
@@ -67,7 +75,7 @@ clean: ## Remove everything that was made; trained runs stay
 help: ## List what can be made
 	@sed -nE 's/^([a-z0-9-]+):.*## (.*)/  make \1\t\2/p' Makefile | expand -t 16
 
-test test-all bench pictures pictures-3d: purpose := test
+test test-all fuzz bench pictures pictures-3d: purpose := test
 system:
 	@.ci/system-packages.sh $(purpose)
 

@@ -12,6 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import httpx
+from signed_in import forget, know
 
 STARTED_WITHIN_S = 60.0
 """The service answers by then, even on a busy machine [s]."""
@@ -45,8 +46,10 @@ def serving(home: Path, port: int, module: Sequence[str], needs: Sequence[str] =
         process = subprocess.Popen(command, env=environment, stdout=output, stderr=subprocess.STDOUT)
     try:
         _wait_until_healthy(address, process, log, needs)
+        know(address, home)
         yield address
     finally:
+        forget(address)
         process.send_signal(signal.SIGTERM)
         process.wait(timeout=ENDED_WITHIN_S)
 

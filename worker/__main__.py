@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import logging
 import signal
 import sys
 
+from backend.logs import load_style, start_logging
 from backend.store.database import Database, open_database
 from backend.store.errors import StoreUnavailable
 from backend.store.settings import Settings, load_settings
@@ -20,9 +20,9 @@ from worker.supervisor import Supervisor
 def main() -> int:
     """Run a supervisor; SIGTERM and SIGINT hand its runs back and end it."""
     options = _parse()
-    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(message)s")
     settings = load_settings()
     try:
+        start_logging("worker", settings.logs_directory, load_style())
         db = open_database(settings)
         make = {"local": _work_here, "ray": _work_on_cluster}[options.executor]
         supervisor = make(options, db, settings)

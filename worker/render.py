@@ -21,12 +21,16 @@ from pathlib import Path
 from sldr_core.config import TASKS, find_task
 from sldr_core.errors import SldrError
 from worker.mortality import end_with_parent
+from worker.priority import give_way
 
 PICTURE_SIZE = (800, 500)
 """Width and height of a task's picture [pixels]."""
 
 DRAWING_TIMEOUT_S = 120.0
 """A picture that is not drawn by then will not be [s]."""
+
+NICENESS = 10
+"""Drawing what nobody asked for yet gives way to everything else."""
 
 EGL_LIBRARY = "libEGL.so.1"
 
@@ -107,6 +111,7 @@ def main() -> int:
     end_with_parent()
     try:
         if options.all_below is not None:
+            give_way(NICENESS)
             render_all_pictures(options.all_below)
         elif options.task is None or options.file is None:
             parser.error("name a task and a file, or give --all-below HOME.")

@@ -11,6 +11,7 @@ import socket
 import time
 from dataclasses import dataclass
 
+from backend.logs import about
 from backend.store.claims import Claim
 from backend.store.database import Database
 from backend.store.errors import StaleFence, StoreUnavailable
@@ -166,17 +167,19 @@ class Supervisor:
             self._finish(claimed, Failed(f"Its process could not be started: {err}.", retry=True))
             return
         self._attempts[claimed.run_id] = Attempt(claimed, child)
-        log.info("Run %s, attempt %d: started as %s.", claimed.run_id, claimed.attempt, child.place)
+        with about(run_id=claimed.run_id, attempt=claimed.attempt):
+            log.info("Run %s, attempt %d: started as %s.", claimed.run_id, claimed.attempt, child.place)
 
     def _report_ended(self) -> None:
         for run_id, attempt in list(self._attempts.items()):
             status = attempt.child.poll()
             if status is None:
                 continue
-            self._finish(attempt.claim, attempt.outcome())
-            attempt.child.wait()
-            del self._attempts[run_id]
-            log.info("Run %s, attempt %d: ended with status %d.", run_id, attempt.claim.attempt, status)
+            with about(run_id=run_id, attempt=attempt.claim.attempt):
+                self._finish(attempt.claim, attempt.outcome())
+                attempt.child.wait()
+                del self._attempts[run_id]
+                log.info("Run %s, attempt %d: ended with status %d.", run_id, attempt.claim.attempt, status)
 
     def _finish(self, claimed: Claim, outcome: Outcome) -> None:
         try:
@@ -192,10 +195,11 @@ class Supervisor:
         for attempt in self._attempts.values():
             reply = self._read_requests(attempt.claim)
             word = self._wanted_of(reply)
-            if word is not None:
-                attempt.ask(word, self._grace_for(word))
-            if reply.idle_s > self._timing.hang_s and self._presence.is_steady:
-                attempt.give_up_hung(reply.idle_s)
+            with about(run_id=attempt.claim.run_id, attempt=attempt.claim.attempt):
+                if word is not None:
+                    attempt.ask(word, self._grace_for(word))
+                if reply.idle_s > self._timing.hang_s and self._presence.is_steady:
+                    attempt.give_up_hung(reply.idle_s)
 
     def _read_requests(self, claimed: Claim) -> HeartbeatReply:
         """Ask what people want of an attempt; a store that cannot answer must not keep a worker from ending."""
@@ -226,4 +230,5 @@ class Supervisor:
             return
         self._reap_at = time.monotonic() + self._timing.reap_s
         for run_id in reap_expired(self._db, self._timing.retry_backoff_s):
-            log.warning("Run %s: its worker gave no sign of life; it was taken from it.", run_id)
+            with about(run_id=run_id):
+                log.warning("Run %s: its worker gave no sign of life; it was taken from it.", run_id)

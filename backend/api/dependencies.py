@@ -7,13 +7,16 @@ from typing import Annotated
 
 import httpx
 from fastapi import Depends
+from prometheus_client import CollectorRegistry
 from starlette.requests import HTTPConnection
 
+from backend.api.access.callers import Access, Caller
 from backend.api.tokens import ViewerTokens
 from backend.comparison.memory import ComparisonMemory
 from backend.store.database import Database
 from backend.store.settings import Settings
 from backend.store.storage import FileStorage
+from backend.webhooks.sender import Sender
 
 
 @dataclass(frozen=True)
@@ -28,6 +31,10 @@ class Service:
     """Fetches pages from the 3D servers on this machine."""
     memory: ComparisonMemory
     """What comparisons keep between two questions."""
+    sender: Sender
+    """Tells other services what has ended."""
+    access: Access
+    """Who comes in."""
 
 
 def get_service(connection: HTTPConnection) -> Service:
@@ -60,9 +67,23 @@ def get_memory(connection: HTTPConnection) -> ComparisonMemory:
     return get_service(connection).memory
 
 
+def get_registry(connection: HTTPConnection) -> CollectorRegistry:
+    """Return what this process counts for a monitor."""
+    return connection.app.state.registry
+
+
+def get_caller(connection: HTTPConnection) -> Caller:
+    """Return who asks, at a route that nobody else reaches."""
+    caller = connection.scope["state"]["caller"]
+    assert isinstance(caller, Caller)
+    return caller
+
+
 ServiceParts = Annotated[Service, Depends(get_service)]
 Store = Annotated[Database, Depends(get_database)]
 Storage = Annotated[FileStorage, Depends(get_storage)]
 ServiceSettings = Annotated[Settings, Depends(get_settings)]
 Tokens = Annotated[ViewerTokens, Depends(get_tokens)]
 Memory = Annotated[ComparisonMemory, Depends(get_memory)]
+Registry = Annotated[CollectorRegistry, Depends(get_registry)]
+KnownCaller = Annotated[Caller, Depends(get_caller)]

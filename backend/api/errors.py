@@ -20,15 +20,20 @@ log = logging.getLogger("sldr.api")
 
 DESCRIPTIONS = {
     400: "The request cannot be read.",
+    401: "Nobody is signed in.",
     403: "Not allowed.",
     404: "It does not exist.",
     409: "Its state does not allow this.",
-    413: "It is longer than what is taken.",
+    413: "The request is too large.",
     416: "The range lies outside the file.",
     422: "A field or setting cannot work.",
+    429: "Too many attempts.",
     500: "An error of the service itself.",
     503: "The store cannot be used just now.",
 }
+
+OF_ALL = (401, 403, 413, 500, 503)
+"""What every route may answer with."""
 
 
 class ApiError(Exception):
@@ -42,7 +47,7 @@ class ApiError(Exception):
 
 def problem_responses(*codes: int) -> dict[int | str, dict[str, Any]]:
     """Return the schema's entries for the errors that a route can answer with."""
-    return {code: {"model": Problems, "description": DESCRIPTIONS[code]} for code in (*codes, 500, 503)}
+    return {code: {"model": Problems, "description": DESCRIPTIONS[code]} for code in (*codes, *OF_ALL)}
 
 
 def problem_answer(status: int, problems: Sequence[Problem], headers: dict[str, str] | None = None) -> Response:
@@ -83,6 +88,7 @@ def _answer_http_error(request: Request, error: Exception) -> Response:
         400: "The request's body cannot be read; send JSON as UTF-8.",
         404: f"There is nothing at {path}.",
         405: f"{request.method} is not possible on {path}.",
+        413: "The request is larger than this address takes.",
     }
     message = sentences.get(error.status_code, str(error.detail))
     return problem_answer(error.status_code, [problem(message)], dict(error.headers or {}))

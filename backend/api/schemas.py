@@ -259,5 +259,8 @@ class Health(Strict):
 
     status: Literal["ok", "degraded"]
     version: str
+    store: str = Field(description="The database that answers: `sqlite` or `postgresql`.")
+    schema_revision: str = Field(description="The revision of its tables.")
     workers_alive: int
+    worker_seen_at: datetime | None = Field(description="The newest sign of life of a listed worker.")
     viewer_alive: bool

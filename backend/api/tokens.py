@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import os
 import secrets
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 from itsdangerous import BadSignature, URLSafeSerializer
+
+from backend.store.private_files import load_private
 
 SECRET_BYTES = 32
 """Length of the signing secret [bytes]."""
@@ -49,16 +50,4 @@ class ViewerTokens:
 
 def load_secret(path: Path) -> bytes:
     """Return the signing secret of a data directory, made on first use and readable by its owner only."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    candidate = path.with_name(f".{path.name}-{secrets.token_hex(4)}")
-    if not path.exists():
-        descriptor = os.open(candidate, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
-        with os.fdopen(descriptor, "wb") as file:
-            file.write(secrets.token_bytes(SECRET_BYTES))
-        try:
-            os.link(candidate, path)  # Fails, rather than replaces, if another process was first.
-        except FileExistsError:
-            pass
-        finally:
-            candidate.unlink()
-    return path.read_bytes()
+    return load_private(path, lambda: secrets.token_bytes(SECRET_BYTES))

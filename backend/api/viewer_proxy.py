@@ -20,6 +20,8 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
 from websockets.typing import Subprotocol
 
+from backend.api.access.callers import Refusal, find_caller
+from backend.api.access.declarations import needs
 from backend.api.dependencies import Service, ServiceParts
 from backend.api.errors import problem, problem_answer
 from backend.api.tokens import BadToken
@@ -59,12 +61,14 @@ def viser_client() -> httpx.Client:
 
 
 @router.get("/{token}")
+@needs("viewer")
 def open_view(token: str, request: Request) -> Response:
     """Lead to the page's own folder, so that its relative addresses work."""
     return RedirectResponse(request.url.replace(path=f"{request.url.path}/"))
 
 
 @router.get("/{token}/{path:path}")
+@needs("viewer")
 def fetch_view(token: str, path: str, request: Request, service: ServiceParts) -> Response:
     """Fetch one file of the 3D page."""
     try:
@@ -75,6 +79,7 @@ def fetch_view(token: str, path: str, request: Request, service: ServiceParts) -
 
 
 @router.websocket("/{token}/control")
+@needs("viewer")
 async def stream_control(token: str, socket: WebSocket, service: ServiceParts) -> None:
     """Connect our page with the session that it drives: commands in, states out, as JSON."""
     await _stream(token, socket, service, find_control_port)
@@ -82,6 +87,7 @@ async def stream_control(token: str, socket: WebSocket, service: ServiceParts) -
 
 @router.websocket("/{token}")
 @router.websocket("/{token}/")
+@needs("viewer")
 async def stream_view(token: str, socket: WebSocket, service: ServiceParts) -> None:
     """Connect a 3D page with its server: whole messages, both ways, as they are."""
     await _stream(token, socket, service, find_port)
@@ -149,8 +155,8 @@ def _fetch(viser: httpx.Client, port: int, path: str, request: Request) -> Respo
     except httpx.HTTPError as error:
         raise _unreachable(port) from error
     kept = {name: value for name in FORWARDED_ANSWER_HEADERS if (value := answer.headers.get(name))}
-    # The address is the key: it must not leak to other sites, and only our own page may frame it.
-    kept |= {"Referrer-Policy": "no-referrer", "Content-Security-Policy": "frame-ancestors 'self'"}
+    # The address is part of the key: it must not leak to other sites.
+    kept |= {"Referrer-Policy": "no-referrer"}
     return Response(content, status_code=answer.status_code, headers=kept)
 
 
@@ -173,7 +179,7 @@ async def _relay(socket: WebSocket, server: ClientConnection, service: Service, 
     directions = [
         asyncio.create_task(_pass_to_server(socket, server)),
         asyncio.create_task(_pass_to_page(server, socket)),
-        asyncio.create_task(_stay_open(service, token)),
+        asyncio.create_task(_stay_open(service, token, socket)),
     ]
     try:
         await asyncio.wait(directions, return_when=asyncio.FIRST_COMPLETED)
@@ -204,12 +210,14 @@ async def _pass_to_page(server: ClientConnection, socket: WebSocket) -> None:
         await (socket.send_text(data) if isinstance(data, str) else socket.send_bytes(data))
 
 
-async def _stay_open(service: Service, token: str) -> None:
-    """End when the session ended or its token expired."""
+async def _stay_open(service: Service, token: str, socket: WebSocket) -> None:
+    """End when the 3D session ended or its token expired, or when whoever watches is not signed in any more."""
     while True:
         await asyncio.sleep(TOUCH_INTERVAL_S)
         try:
             await run_in_threadpool(find_port, service, token)
+            if isinstance(await run_in_threadpool(find_caller, service.access, service.database, socket), Refusal):
+                return
         except StoreUnavailable as error:
             log.warning("%s The 3D view goes on.", error)
 

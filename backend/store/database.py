@@ -150,7 +150,7 @@ def _file_lock(path: Path) -> Generator[None]:
 
 def _migrate(database: Database) -> None:
     with database.read() as conn:
-        if _revision(conn) == SCHEMA_REVISION:
+        if read_table_revision(conn) == SCHEMA_REVISION:
             return
     # Alembic takes a third of a second to import: only when needed.
     from alembic.util import CommandError
@@ -163,12 +163,13 @@ def _migrate(database: Database) -> None:
             upgrade(conn)
         except CommandError as err:
             raise StoreTooNew(
-                f"The store's tables are of revision {_revision(conn)}, which this version does not know; "
+                f"The store's tables are of revision {read_table_revision(conn)}, which this version does not know; "
                 "start the newer version that has used it, or restore a backup made before."
             ) from err
 
 
-def _revision(conn: Connection) -> str | None:
+def read_table_revision(conn: Connection) -> str | None:
+    """Return the migration that a store's tables are of; None if it has none yet."""
     if not inspect(conn).has_table("alembic_version"):
         return None
     return conn.execute(text("SELECT version_num FROM alembic_version")).scalar_one_or_none()

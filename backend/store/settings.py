@@ -9,6 +9,9 @@ from pathlib import Path
 HOME_VARIABLE = "SLDR_HOME"
 DATABASE_VARIABLE = "SLDR_DATABASE_URL"
 FILES_VARIABLE = "SLDR_FILES_URL"
+LOCAL_WEBHOOKS_VARIABLE = "SLDR_LOCAL_WEBHOOKS"
+"""Set to `allow`, webhooks may go to services on this machine."""
+ALLOW = "allow"
 DEFAULT_HOME = "~/.sldr"
 
 
@@ -22,6 +25,8 @@ class Settings:
     """SQLAlchemy address of the store."""
     files_url: str | None = None
     """The place that several machines share files through, as fsspec names it; None if `home` is all there is."""
+    local_webhooks: bool = False
+    """Whether webhooks may go to services on this machine."""
 
     @property
     def runs_directory(self) -> Path:
@@ -48,6 +53,16 @@ class Settings:
         """The key that signs viewer tokens."""
         return self.home / "secret"
 
+    @property
+    def server_file(self) -> Path:
+        """The address of the service that runs over this directory, which locks the file meanwhile."""
+        return self.home / "server-address"
+
+    @property
+    def access_token_path(self) -> Path:
+        """The token that opens a server on loopback."""
+        return self.home / "access-token"
+
     def run_directory(self, run_id: str) -> Path:
         """Return the directory of one run; it exists once a worker has begun the run."""
         return self.runs_directory / run_id
@@ -55,7 +70,8 @@ class Settings:
     def as_environment(self) -> dict[str, str]:
         """Return the environment variables that give a child process the same settings."""
         shared = {} if self.files_url is None else {FILES_VARIABLE: self.files_url}
-        return {HOME_VARIABLE: str(self.home), DATABASE_VARIABLE: self.database_url, **shared}
+        local = {LOCAL_WEBHOOKS_VARIABLE: ALLOW} if self.local_webhooks else {}
+        return {HOME_VARIABLE: str(self.home), DATABASE_VARIABLE: self.database_url, **shared, **local}
 
 
 def load_settings() -> Settings:
@@ -65,6 +81,7 @@ def load_settings() -> Settings:
         home=home,
         database_url=os.environ.get(DATABASE_VARIABLE) or sqlite_url(home),
         files_url=os.environ.get(FILES_VARIABLE) or None,
+        local_webhooks=os.environ.get(LOCAL_WEBHOOKS_VARIABLE) == ALLOW,
     )
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from datetime import UTC, datetime
 from typing import Any
 
 from sqlalchemy import (
@@ -10,21 +9,21 @@ from sqlalchemy import (
     BigInteger,
     Boolean,
     Column,
-    DateTime,
-    Dialect,
     Float,
     ForeignKey,
     Index,
     Integer,
-    MetaData,
     Row,
     String,
     Table,
     Text,
-    TypeDecorator,
+    UniqueConstraint,
     false,
     literal_column,
 )
+
+import backend.store.access.tables  # noqa: F401 - its tables are of the same metadata
+from backend.store.schema import ID_LENGTH, NAME_LENGTH, UtcDateTime, metadata
 
 SCHEMA_REVISION = "0011"
 """The migration that these tables correspond to."""
@@ -32,43 +31,9 @@ SCHEMA_REVISION = "0011"
 AnyRow = Row[*tuple[Any, ...]]
 """A row of whatever columns were asked for."""
 
-ID_LENGTH = 32
-NAME_LENGTH = 200
-
 TEST_METRIC_INDEX_CONDITION = "metric_values.name >= 'test/' AND metric_values.name < 'test0'"
 """Which metrics have an index by name: those of tests, few among many. A query that says so is answered from it."""
 
-
-class UtcDateTime(TypeDecorator[datetime]):
-    """Hand out aware UTC times on every database, also on those that store none."""
-
-    impl = DateTime(timezone=True)
-    cache_ok = True
-
-    def process_bind_param(self, value: datetime | None, dialect: Dialect) -> datetime | None:
-        """Refuse naive times and store the others in UTC."""
-        if value is None:
-            return None
-        if value.tzinfo is None:
-            raise ValueError(f"time {value} has no zone; use aware UTC times")
-        value = value.astimezone(UTC)
-        return value.replace(tzinfo=None) if dialect.name == "sqlite" else value
-
-    def process_result_value(self, value: datetime | None, dialect: Dialect) -> datetime | None:
-        """Return an aware UTC time."""
-        if value is None:
-            return None
-        return value.replace(tzinfo=UTC) if value.tzinfo is None else value.astimezone(UTC)
-
-
-metadata = MetaData(
-    naming_convention={
-        "ix": "ix_%(table_name)s_%(column_0_N_name)s",
-        "uq": "uq_%(table_name)s_%(column_0_N_name)s",
-        "fk": "fk_%(table_name)s_%(column_0_N_name)s",
-        "pk": "pk_%(table_name)s",
-    }
-)
 
 runs = Table(
     "runs",
@@ -341,3 +306,43 @@ media_jobs = Table(
     Column("ended_at", UtcDateTime),
     Index(None, "state", "created_at"),
 )
+
+webhooks = Table(
+    "webhooks",
+    metadata,
+    Column("id", String(ID_LENGTH), primary_key=True),
+    Column("url", Text, nullable=False),
+    Column("secret", String(64), nullable=False),
+    Column("events", JSON, nullable=False),
+    Column("created_at", UtcDateTime, nullable=False),
+)
+
+webhook_deliveries = Table(
+    "webhook_deliveries",
+    metadata,
+    Column("id", String(ID_LENGTH), primary_key=True),
+    Column("webhook_id", String(ID_LENGTH), ForeignKey("webhooks.id"), nullable=False),
+    Column("event", String(ID_LENGTH), nullable=False),
+    Column("subject", String(ID_LENGTH), nullable=False),
+    Column("occasion", String(64), nullable=False),
+    Column("body", Text, nullable=False),
+    Column("state", String(ID_LENGTH), nullable=False),
+    Column("tries", Integer, nullable=False, server_default="0"),
+    Column("not_before", UtcDateTime, nullable=False),
+    Column("problem", Text),
+    Column("created_at", UtcDateTime, nullable=False),
+    Column("ended_at", UtcDateTime),
+    UniqueConstraint("webhook_id", "event", "subject", "occasion"),
+    Index(None, "state", "not_before"),
+)
+
+file_removals = Table(
+    "file_removals",
+    metadata,
+    Column("run_id", String(ID_LENGTH), ForeignKey("runs.id"), primary_key=True),
+    Column("path", Text, primary_key=True),
+    Column("size", BigInteger, nullable=False),
+    Column("fence", Integer, nullable=False),
+    Column("marked_at", UtcDateTime, nullable=False),
+)
+"""Files that no row of `run_files` holds any more and whose bytes are to go."""

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
 from copy import deepcopy
 from typing import Any
@@ -69,6 +69,16 @@ class DdpgAgent:
     def act(self, obs: Tensor, goal: Tensor) -> Tensor:
         """Return the deterministic actions `[..., A]` of the online actor."""
         return self.actor(self.features(obs.to(self._device), goal.to(self._device))).cpu()
+
+    def frozen_policy(self) -> Callable[[Tensor, Tensor], Tensor]:
+        """Return what `act` does now; it goes on doing that while this agent learns."""
+        normalizer, actor = deepcopy(self.normalizer), deepcopy(self.actor).requires_grad_(False)
+
+        def act(obs: Tensor, goal: Tensor) -> Tensor:
+            seen = self._view.features(obs.to(self._device), goal.to(self._device))
+            return actor(normalizer(seen)).cpu()
+
+        return act
 
     @torch.no_grad()
     def values(self, obs: Tensor, goal: Tensor, action: Tensor) -> Tensor:

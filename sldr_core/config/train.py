@@ -28,7 +28,9 @@ class LoopConfig:
     epochs: Positive = 50
     """Epochs of training; each ends with a test."""
     cycles_per_epoch: Positive = 50
-    """Cycles of one epoch; each collects episodes, then learns."""
+    """Cycles of one epoch; each collects episodes and learns."""
+    collecting: Literal["before", "beside"] = "before"
+    """`before`: a cycle's updates see its episodes; `beside`: both happen at once, and updates see all earlier ones."""
     episodes_per_cycle: Positive = 38
     """Episodes collected in parallel in each cycle, one per simulation."""
     updates_per_cycle: Positive = 40
@@ -156,6 +158,10 @@ class TrainConfig:
             raise ValueError("method: a locomotion run learns from the sparse reward alone; use 'her'.")
         if self.method_spec.sampler == "curriculum":
             self._check_curriculum()
+        if self.loop.collecting == "beside" and self.loop.warmup_cycles == 0:
+            raise ValueError(
+                "loop.warmup_cycles: the first updates would have nothing to learn from; choose 1 or more."
+            )
         cycle = self.loop.episodes_per_cycle * self.task_spec.episode_length
         if self.replay.capacity < 2 * cycle:
             raise ValueError(

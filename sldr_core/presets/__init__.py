@@ -63,8 +63,9 @@ PRESETS: dict[str, Preset] = {
             summary="Reach a learnt policy while you watch: small nets, and updates where something moved.",
             manipulation={
                 "loop": {
-                    "epochs": 30,
-                    "cycles_per_epoch": 10,
+                    "epochs": 20,
+                    "cycles_per_epoch": 15,
+                    "collecting": "beside",
                     "updates_per_cycle": 80,
                     "updates_per_sync": 1,
                     "batch_size": 512,
@@ -79,6 +80,7 @@ PRESETS: dict[str, Preset] = {
                 "loop": {
                     "epochs": 10,
                     "cycles_per_epoch": 10,
+                    "collecting": "beside",
                     "updates_per_sync": 4,
                     "batch_size": 1024,
                     "test_episodes": 114,

@@ -80,7 +80,7 @@ def build_training(
         InvalidConfig: the device does not exist.
     """
     models = _load_models(config, locomotion_models, gate=0.0 if gate_waived else config.sldr.gate)
-    compute = resolve_compute(config.compute)
+    compute = resolve_compute(config.compute, beside=config.loop.collecting == "beside")
     task = config.task_spec
     sampling_seed, exploration_seed, weight_seed, stream_seed = np.random.SeedSequence(config.seed).spawn(4)
     weights = _weight_generator(weight_seed)
@@ -207,7 +207,7 @@ def _build_envs(config: TrainConfig, compute: Compute, seed: int, testing: bool)
         config.phase,
         num_envs=config.loop.episodes_per_cycle,
         seed=seed,
-        threads=compute.threads,
+        threads=compute.threads if testing else compute.collecting_threads,
         robot=config.scene.locomotion_robot,
         testing=testing,
         variant=config.scene.variant,

@@ -18,10 +18,17 @@ class Compute:
     device: torch.device
     autocast: bool
     threads: int
+    """Threads of this training."""
+    collecting_threads: int
+    """Those of them that step the simulations in which episodes are collected."""
 
 
-def resolve_compute(config: ComputeConfig) -> Compute:
+def resolve_compute(config: ComputeConfig, beside: bool = False) -> Compute:
     """Find device and threads, and set torch's number of threads for this process.
+
+    Args:
+        config: what is asked for.
+        beside: whether episodes are collected while the learner works, so that the two share the threads.
 
     Raises:
         InvalidConfig: a GPU is asked for and there is none.
@@ -30,9 +37,17 @@ def resolve_compute(config: ComputeConfig) -> Compute:
     if config.device == "cuda" and not has_gpu:
         raise InvalidConfig({"compute.device": "there is no GPU that torch can use; choose 'auto' or 'cpu'"})
     threads = config.threads or len(os.sched_getaffinity(0))
-    torch.set_num_threads(threads)
+    device = torch.device("cuda" if has_gpu and config.device != "cpu" else "cpu")
+    learning = _learning_threads(threads, device) if beside else threads
+    torch.set_num_threads(learning)
     return Compute(
-        device=torch.device("cuda" if has_gpu and config.device != "cpu" else "cpu"),
+        device=device,
         autocast=config.precision == "bfloat16",
         threads=threads,
+        collecting_threads=max(1, threads - learning) if beside else threads,
     )
+
+
+def _learning_threads(threads: int, device: torch.device) -> int:
+    """Return how many of the threads the learner gets: half of them, or the one that feeds a GPU."""
+    return 1 if device.type == "cuda" else max(1, threads // 2)

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import replace
+import time
+from collections.abc import Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+from threading import Event
 
 import torch
 from torch import Tensor
@@ -19,16 +22,60 @@ LOWEST_REWARD, HIGHEST_REWARD = -1.0, 0.0
 """The limits of rewards for which targets are clipped; a stream that is bounded is bounded by them."""
 
 
+@dataclass(frozen=True)
+class Cycle:
+    """What one cycle has done."""
+
+    collected: Collected
+    metrics: dict[str, float]
+
+
+def cycle_before(parts: Parts, updates_before: int, check: Check) -> Cycle:
+    """Collect and store episodes, then learn from all that is stored (paper Alg. 1)."""
+    collected, gathering = collect(parts, check)
+    return Cycle(collected, gathering | learn(parts, updates_before, check))
+
+
+def cycle_beside(parts: Parts, updates_before: int, check: Check) -> Cycle:
+    """Collect episodes with the policy as it is, and learn meanwhile from those that are stored; then store the new.
+
+    What comes out does not depend on which of the two is faster: each has generators and networks of its own, and
+    they meet at the end of the cycle.
+    """
+    policy = numpy_policy(parts.agent.frozen_policy())
+    abandoned = Event()
+
+    def still_wanted() -> None:
+        if abandoned.is_set():
+            raise _Abandoned
+
+    with ThreadPoolExecutor(max_workers=1, thread_name_prefix="collecting") as beside:
+        collecting = beside.submit(_collect, parts, parts.exploration.around(policy), still_wanted)
+        try:
+            learning = learn(parts, updates_before, check)
+        except BaseException:
+            abandoned.set()
+            raise
+        collected, speed = collecting.result()
+    return Cycle(collected, speed | learning | store(parts, collected))
+
+
+CYCLES: dict[str, Callable[[Parts, int, Check], Cycle]] = {"before": cycle_before, "beside": cycle_beside}
+"""How a cycle goes, by what `loop.collecting` says."""
+
+
 def collect(parts: Parts, check: Check) -> tuple[Collected, dict[str, float]]:
     """Run one exploring episode in each simulation and store it; return metrics as well."""
     policy = numpy_policy(parts.agent.act)
-    return _collect_and_store(parts, parts.exploration.around(policy), check)
+    collected, speed = _collect(parts, parts.exploration.around(policy), check)
+    return collected, speed | store(parts, collected)
 
 
 def collect_random(parts: Parts, check: Check) -> tuple[Collected, dict[str, float]]:
     """Run one episode of uniformly random actions in each simulation and store it; return metrics as well."""
     size = parts.envs.action_size
-    return _collect_and_store(parts, lambda obs, goal: parts.exploration.random((len(obs), size)), check)
+    collected, speed = _collect(parts, lambda obs, goal: parts.exploration.random((len(obs), size)), check)
+    return collected, speed | store(parts, collected)
 
 
 def learn(parts: Parts, updates_before: int, check: Check) -> dict[str, float]:
@@ -44,6 +91,7 @@ def learn(parts: Parts, updates_before: int, check: Check) -> dict[str, float]:
     """
     loop = parts.config.loop
     gathered = Gathered()
+    started = time.monotonic()
     for update in range(updates_before + 1, updates_before + loop.updates_per_cycle + 1):
         batch = on_device(parts.sampler.sample(loop.batch_size, update - 1), parts.compute.device)
         rewards = {stream.name: stream.reward(batch) for stream in parts.streams}
@@ -58,11 +106,19 @@ def learn(parts: Parts, updates_before: int, check: Check) -> dict[str, float]:
         check_update(metrics, batch, rewards, parts.learner_states)
         gathered.add(metrics)
         check()
-    return gathered.close()
+    metrics = gathered.close()
+    return {**metrics, "speed/updates_per_s": loop.updates_per_cycle / (time.monotonic() - started)}
 
 
-def _collect_and_store(parts: Parts, act: Act, check: Check) -> tuple[Collected, dict[str, float]]:
+def _collect(parts: Parts, act: Act, check: Check) -> tuple[Collected, dict[str, float]]:
+    started = time.monotonic()
     collected = collect_episodes(parts.envs, act, check)
+    steps = collected.episodes.action.shape[0] * collected.episodes.action.shape[1]
+    return collected, {"speed/env_steps_per_s": steps / (time.monotonic() - started)}
+
+
+def store(parts: Parts, collected: Collected) -> dict[str, float]:
+    """Take episodes into the statistics and the replay buffer; return metrics."""
     episodes = collected.episodes
     obs, action = torch.from_numpy(episodes.obs), torch.from_numpy(episodes.action)
     goal = torch.from_numpy(episodes.goal)[:, None].expand(*episodes.achieved.shape)
@@ -75,7 +131,11 @@ def _collect_and_store(parts: Parts, act: Act, check: Check) -> tuple[Collected,
         stream.observe(obs, goal)
     extra = {name: values for stream in parts.streams for name, values in stream.annotate(episodes.obs).items()}
     parts.buffer.store(replace(episodes, extra=extra))
-    return collected, metrics
+    return metrics
+
+
+class _Abandoned(Exception):
+    """The updates beside which episodes are collected have failed, or are not wanted any more."""
 
 
 def _reward_metrics(rewards: Mapping[str, Tensor]) -> dict[str, Tensor]:

@@ -23,7 +23,7 @@ from sldr_core.training.checkpoint import (
     restore_training,
     write_checkpoint,
 )
-from sldr_core.training.cycle import collect, collect_random, learn
+from sldr_core.training.cycle import CYCLES, collect_random
 from sldr_core.training.directory import alone_in
 from sldr_core.training.dump import keep_evidence
 from sldr_core.training.files import (
@@ -131,20 +131,13 @@ class _Loop:
     def _run_cycle(self) -> None:
         counters = self._counters
         self._cycle = counters.cycle + 1
-        started = time.monotonic()
         check_weights(self._parts.learner_states())
-        collected, metrics = collect(self._parts, self._check)
-        collected_at = time.monotonic()
-        metrics.update(learn(self._parts, counters.updates, self._check))
-        learnt_at = time.monotonic()
-        self._count(collected)
+        done = CYCLES[self._loop.collecting](self._parts, counters.updates, self._check)
+        metrics = done.metrics
+        self._count(done.collected)
         counters.updates += self._loop.updates_per_cycle
         counters.cycle += 1
-        metrics["train/success_rate"] = float(collected.success.mean())
-        metrics["speed/env_steps_per_s"] = (
-            collected.episodes.action.shape[0] * collected.episodes.action.shape[1] / (collected_at - started)
-        )
-        metrics["speed/updates_per_s"] = self._loop.updates_per_cycle / (learnt_at - collected_at)
+        metrics["train/success_rate"] = float(done.collected.success.mean())
         if counters.cycle % self._loop.cycles_per_epoch == 0:
             metrics.update(self._test())
         counters.wall_seconds = time.monotonic() - self._clock

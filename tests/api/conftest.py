@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from live_api import Service, new_client, serving
+from live_api import Service, serving_client
 
 from backend.api.app import create_app
 from backend.store.settings import Settings, sqlite_url
@@ -51,5 +51,5 @@ def module_service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service
 @contextmanager
 def _open(settings: Settings, built_page: Path) -> Iterator[Service]:
     app = create_app(settings, built_page)
-    with serving(app) as address, new_client(address) as client:
+    with serving_client(app) as client:
         yield Service(client=client, settings=settings, database=app.state.service.database)

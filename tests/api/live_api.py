@@ -72,9 +72,22 @@ def serving(app: FastAPI) -> Iterator[str]:
         thread.join()
 
 
-def new_client(address: str) -> httpx.Client:
-    """Return a client of a server on this machine."""
-    return httpx.Client(base_url=address, trust_env=False, verify=False, timeout=10.0)
+def new_client(address: str, token: str | None = None) -> httpx.Client:
+    """Return a client of a server on this machine, with its token, or as nobody."""
+    headers = None if token is None else bearer(token)
+    return httpx.Client(base_url=address, trust_env=False, verify=False, timeout=10.0, headers=headers)
+
+
+def bearer(token: str) -> dict[str, str]:
+    """Return the header that shows a token."""
+    return {"Authorization": f"Bearer {token}"}
+
+
+@contextmanager
+def serving_client(app: FastAPI) -> Iterator[httpx.Client]:
+    """Serve an application and hand out a client that may do everything."""
+    with serving(app) as address, new_client(address, app.state.service.access.local_token) as client:
+        yield client
 
 
 def problem_fields(answer: Any) -> list[str | None]:

@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from live_api import Service, new_client, problem_fields, serving
+from live_api import Service, problem_fields, serving_client
 
 from backend.api.app import create_app
 from backend.api.schema import schema_text
@@ -54,7 +54,7 @@ def test_the_built_page_answers_its_own_addresses(settings: Settings, built_page
     (built_page / "assets").mkdir(parents=True)
     (built_page / "index.html").write_text("<title>SLDR</title>")
     (built_page / "assets" / "app-1a2b.js").write_text("1;")
-    with serving(create_app(settings, built_page)) as address, new_client(address) as client:
+    with serving_client(create_app(settings, built_page)) as client:
         run_page = client.get("/runs/abc", headers=BROWSER)
         script = client.get("/assets/app-1a2b.js")
         missing = client.get("/assets/old.js")

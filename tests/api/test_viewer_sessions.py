@@ -24,6 +24,7 @@ from websockets.typing import Origin, Subprotocol
 from backend.api import viewer_proxy
 from backend.api.tokens import TOKEN_LIFETIME, BadToken, ViewerTokens, load_secret
 from backend.store import viewer_sessions
+from backend.store.launches import LaunchOrder, launch
 
 PROTOCOL = Subprotocol("viser-v1.1.1")
 BROWSER = {"accept": "text/html"}
@@ -37,6 +38,8 @@ class View:
     url: str
     socket_url: str
     origin: Origin
+    headers: dict[str, str]
+    """What shows who watches."""
 
 
 @contextmanager
@@ -77,12 +80,14 @@ def open_session(service: Service, port: int) -> View:
     url = service.get(f"/api/viewer-sessions/{session['id']}")["url"]
     address = str(service.client.base_url).rstrip("/")
     socket_url = address.replace("http", "ws") + url.rstrip("/")
-    return View(session["id"], url, socket_url, Origin(address))
+    headers = {"Authorization": service.client.headers["Authorization"]}
+    return View(session["id"], url, socket_url, Origin(address), headers)
 
 
 def dial(view: View, **options: object) -> ClientConnection:
     """Connect as the 3D page does."""
-    given = {"origin": view.origin, "subprotocols": [PROTOCOL], "proxy": None, "max_size": None} | options
+    given = {"origin": view.origin, "subprotocols": [PROTOCOL], "proxy": None, "max_size": None}
+    given |= {"additional_headers": view.headers} | options
     return connect(view.socket_url, **given)  # type: ignore[arg-type]
 
 
@@ -202,7 +207,7 @@ def test_a_wrong_token_is_refused_in_words(unused_service: Service):
 
 
 def test_a_wrong_token_opens_no_websocket(view: View):
-    stranger = View(view.session_id, view.url, f"{view.socket_url}x", view.origin)
+    stranger = View(view.session_id, view.url, f"{view.socket_url}x", view.origin, view.headers)
     with pytest.raises(InvalidStatus) as refused:
         dial(stranger)
     assert refused.value.response.status_code == 403
@@ -254,7 +259,7 @@ def test_viser_itself_is_reached_through_the_proxy(service: Service):
 
 
 def test_commands_and_states_pass_below_the_same_token(view: View):
-    control = View(view.session_id, view.url, f"{view.socket_url}/control", view.origin)
+    control = View(view.session_id, view.url, f"{view.socket_url}/control", view.origin, view.headers)
     with dial(control) as socket:
         socket.send('{"do": "pause"}')
         assert socket.recv() == '{"do": "pause"}'
@@ -262,7 +267,9 @@ def test_commands_and_states_pass_below_the_same_token(view: View):
 
 @pytest.mark.parametrize(("origin", "token_end"), [(Origin("http://evil.example"), ""), (None, "x")])
 def test_commands_of_strangers_are_refused(view: View, origin: Origin | None, token_end: str):
-    control = View(view.session_id, view.url, f"{view.socket_url}{token_end}/control", origin or view.origin)
+    control = View(
+        view.session_id, view.url, f"{view.socket_url}{token_end}/control", origin or view.origin, view.headers
+    )
     with pytest.raises(InvalidStatus) as refused:
         dial(control, subprotocols=None)
     assert refused.value.response.status_code == 403
@@ -291,3 +298,46 @@ def test_a_policy_of_another_task_cannot_stand_beside(service: Service, view: Vi
     answer = service.client.post("/api/viewer-sessions", json=body)
     assert (answer.status_code, problem_fields(answer)) == (409, ["beside.run_id"])
     assert f"Run {other} learns FetchSlide" in answer.json()["problems"][0]["message"]
+
+
+def test_a_checkpoint_of_another_task_cannot_stand_beside(service: Service, view: View):
+    run_id = service.get(f"/api/viewer-sessions/{view.session_id}")["run_id"]
+    [other] = service.launch(task="FetchSlide")
+    service.write_file(service.claim(), "checkpoint.pt", b"checkpoint")
+    body = {"kind": "live", "run_id": run_id, "beside": {"run_id": other, "policy": "checkpoint.pt"}}
+    answer = service.client.post("/api/viewer-sessions", json=body)
+    assert (answer.status_code, problem_fields(answer)) == (409, ["beside.run_id"])
+
+
+def inspect(service: Service, run_id: str) -> tuple[int, str]:
+    """Ask for the demonstrations of a run; return the status and the sentence that refuses it."""
+    answer = service.client.post("/api/viewer-sessions", json={"kind": "inspector", "run_id": run_id})
+    return answer.status_code, answer.json()["problems"][0]["message"]
+
+
+def test_the_demonstrations_of_an_unknown_run_are_not_found(unused_service: Service):
+    status, sentence = inspect(unused_service, "nope")
+    assert status == 404
+    assert "nope" in sentence
+
+
+def test_a_robot_s_run_has_no_demonstrations(service: Service):
+    [run_id] = service.launch()
+    status, sentence = inspect(service, run_id)
+    assert status == 409
+    assert sentence == f"In run {run_id} the robot acts; demonstrations are those of locomotion runs."
+
+
+def test_before_its_first_test_a_locomotion_run_has_no_model(service: Service):
+    [run_id] = launch(service.database, LaunchOrder("FetchPush", "locomotion", "her", (0,), "smoke"))
+    service.write_file(service.claim(), "checkpoint.pt", b"checkpoint")
+    status, sentence = inspect(service, run_id)
+    assert status == 409
+    assert sentence == f"Run {run_id} has no locomotion model yet; wait for its first test."
+
+
+def test_no_checkpoint_can_be_chosen_for_demonstrations(service: Service):
+    [run_id] = service.launch()
+    body = {"kind": "inspector", "run_id": run_id, "policy": "checkpoint.pt"}
+    answer = service.client.post("/api/viewer-sessions", json=body)
+    assert (answer.status_code, problem_fields(answer)) == (422, ["policy"])

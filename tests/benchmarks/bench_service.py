@@ -68,7 +68,7 @@ def _start_once(home: Path) -> tuple[float, float]:
         stderr=subprocess.DEVNULL,
     )
     try:
-        _wait_for_answer(f"http://127.0.0.1:{port}/api/runs")
+        _wait_for_answer(f"http://127.0.0.1:{port}/healthz")
         seconds = time.perf_counter() - begun
         return seconds, _api_memory(process.pid) / MB
     finally:

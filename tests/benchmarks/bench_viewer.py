@@ -1,4 +1,4 @@
-"""What 3D sessions cost: time to open, updates and CPU while watched, and what is left of twenty that were opened.
+"""What 3D sessions cost: time to open, updates and CPU while watched, a training beside them, and what twenty leave.
 
     .venv/bin/python tests/benchmarks/bench_viewer.py [FetchPush HandBlockRotate ...]
 
@@ -14,11 +14,9 @@ import time
 from contextlib import closing
 from pathlib import Path
 
-import msgspec
 import psutil
-import viser
-from websockets.sync.client import ClientConnection, connect
-from websockets.typing import Subprotocol
+from bench_pages import drain, watch
+from bench_watching import measure_slowing
 
 from backend.store import viewer_sessions
 from backend.store.database import Database, open_database
@@ -52,6 +50,8 @@ def main(tasks: list[str]) -> None:
         host.begin()
         for task, run_id in runs.items():
             print(f"{task}: {measure(host, database, run_id)}", flush=True)
+        pair = [*runs.values(), *runs.values()][:2]
+        print(slow_a_training(host, database, pair, Path(home) / "training"), flush=True)
         print(leave_many(host, database, runs[tasks[0]]))
         host.close()
         database.close()
@@ -89,43 +89,36 @@ def measure(host: Host, database: Database, run_id: str) -> str:
     process = psutil.Process(host.served[session.id].process.pid)
     with closing(watch(session.port)) as page:
         drain(page, 2.0)  # meshes first
-        before, started = process.cpu_times(), time.monotonic()
-        updates = drain(page, WATCHED_S)
-        seconds, after = time.monotonic() - started, process.cpu_times()
-        cpu = (after.user + after.system - before.user - before.system) / seconds
+        before = cpu_seconds(process)
+        seen = drain(page, WATCHED_S)
+        cpu_s = cpu_seconds(process) - before
         memory = process.memory_full_info().uss / 2**20
     viewer_sessions.mark_ended(database, session.id)
     host.tick()
-    return (
-        f"open in {opening_s:.2f} s, {updates / seconds:.1f} updates/s, {100 * cpu:.0f} % of a core, "
-        f"{memory:.0f} MiB of its own"
-    )
+    moved = f"{seen.rate:.1f} updates/s while it moves, {1000 * cpu_s / seen.updates:.1f} ms of CPU each"
+    cost = f"{100 * cpu_s / seen.seconds:.0f} % of a core, {memory:.0f} MiB of its own"
+    return f"open in {opening_s:.2f} s, {moved}, {cost}"
 
 
-def watch(port: int | None) -> ClientConnection:
-    """Connect with a 3D page's server and say where the camera is, as the page does."""
-    protocol = Subprotocol(f"viser-v{viser.__version__}")
-    page = connect(f"ws://127.0.0.1:{port}", subprotocols=[protocol], compression=None, max_size=None, proxy=None)
-    pose = {"wxyz": (1, 0, 0, 0), "position": (3, 0, 1), "look_at": (0, 0, 0), "up_direction": (0, 0, 1)}
-    lens = {"fov": 0.6, "near": 0.01, "far": 100.0, "image_height": 480, "image_width": 640}
-    page.send(msgspec.msgpack.encode({"type": "ViewerCameraMessage", **pose, **lens}))
-    return page
+def cpu_seconds(process: psutil.Process) -> float:
+    """Return the CPU time that a process has used [s]."""
+    times = process.cpu_times()
+    return times.user + times.system
 
 
-def drain(page: ClientConnection, seconds: float) -> int:
-    """Read what comes for a while; return how many messages that were. One holds all that moved in a frame."""
-    count, ends_at = 0, time.monotonic() + seconds
-    while (left := ends_at - time.monotonic()) > 0:
-        try:
-            page.recv(timeout=left)
-            count += 1
-        except TimeoutError:
-            break
-    return count
+def slow_a_training(host: Host, database: Database, run_ids: list[str], directory: Path) -> str:
+    """Train beside two open sessions, which are watched in turns."""
+    sessions = [measure_opening(host, database, run_id)[0] for run_id in run_ids]
+    text = measure_slowing(directory, [session.port for session in sessions if session.port is not None])
+    for session in sessions:
+        viewer_sessions.mark_ended(database, session.id)
+    host.tick()
+    return text
 
 
 def leave_many(host: Host, database: Database, run_id: str) -> str:
     """Open sessions, leave them, and say what they left behind once they had ended by themselves."""
+    before = own_memory()
     ports: list[int] = []
     pids: list[int] = []
     for _ in range(OPENED):
@@ -140,7 +133,16 @@ def leave_many(host: Host, database: Database, run_id: str) -> str:
     listening = {
         each.laddr.port for each in psutil.net_connections("tcp") if each.laddr and each.status == psutil.CONN_LISTEN
     }
-    return f"{OPENED} sessions opened and left: {len(left)} processes and {len(listening & set(ports))} ports remain"
+    return (
+        f"{OPENED} sessions opened and left: {len(left)} processes, {len(listening & set(ports))} ports and "
+        f"{own_memory() - before:.0f} MiB remain"
+    )
+
+
+def own_memory() -> float:
+    """Return the memory of this process and all below it that nothing else uses [MiB]."""
+    here = psutil.Process()
+    return sum(each.memory_full_info().uss for each in (here, *here.children(recursive=True))) / 2**20
 
 
 if __name__ == "__main__":

@@ -8,7 +8,9 @@ from pathlib import Path
 import pytest
 from PIL import Image
 from plausible_runs import play_out
+from playwright.sync_api import BrowserContext
 from served_product import PAGE_AND_API, WHOLE, serving
+from signed_in import cookies
 
 from backend.store.database import open_database
 from backend.store.launches import LaunchOrder, launch
@@ -30,6 +32,14 @@ def leave_to_draw(home: Path, task: str) -> None:
     pictures.mkdir()
     for other in TASKS.keys() - {task}:
         Image.new("RGB", (1, 1)).save(pictures / f"{other}.png")
+
+
+@pytest.fixture
+def context(new_context: Callable[..., BrowserContext]) -> BrowserContext:
+    """Return a browser that is signed in to everything that is served."""
+    context = new_context()
+    context.add_cookies(cookies())  # type: ignore[arg-type]
+    return context
 
 
 @pytest.fixture(scope="session")

@@ -20,6 +20,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from plausible_runs import play_out
 from served_product import PAGE_AND_API, serving
+from signed_in import cookies
 
 from backend.store.database import open_database
 from backend.store.settings import Settings, sqlite_url
@@ -87,6 +88,7 @@ def _filled_service(stack: ExitStack):
 
 def _visit(browser: Browser, address: str) -> tuple[float, float, float]:
     page = browser.new_page(viewport={"width": WINDOW[0], "height": WINDOW[1]})
+    page.context.add_cookies(cookies())  # type: ignore[arg-type]
     session = page.context.new_cdp_session(page)
     # Ticks of the page's own thread: they stand still while other programs have the core.
     session.send("Performance.enable", {"timeDomain": "threadTicks"})

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-import httpx
 import pytest
+import signed_in
 from playwright.sync_api import Browser, Page
 
 pytestmark = pytest.mark.browser
@@ -51,14 +51,16 @@ PAGES = {
     "configs": ("/compare/configs?runs={run_id},{other_id}", "main table"),
     "queue": ("/queue", "main li"),
     "workers": ("/workers", "main h2, main h3"),
+    "settings": ("/settings", "main h2"),
 }
 """Address of each page, and what is there once it has drawn itself."""
 
 
 @pytest.fixture(scope="module")
-def visitor(browser: Browser) -> Iterator[Page]:
+def visitor(browser: Browser, filled_product: str) -> Iterator[Page]:
     """Return a tab with axe inside; all visits share it."""
     context = browser.new_context()
+    context.add_cookies(signed_in.cookies())  # type: ignore[arg-type]
     context.add_init_script(path=str(AXE))
     yield context.new_page()
     context.close()
@@ -69,7 +71,7 @@ def names(filled_product: str) -> dict[str, str]:
     """Return ids of things that are in the store."""
 
     def get(path: str) -> Any:
-        return httpx.get(f"{filled_product}{path}", timeout=30.0).json()
+        return signed_in.get(filled_product, path)
 
     runs = get("/api/runs?state=succeeded&phase=manipulation")["runs"]
     [study] = get("/api/studies")["studies"]

@@ -7,9 +7,9 @@ import re
 from pathlib import Path
 from typing import Any
 
-import httpx
 import pytest
 from playwright.sync_api import Page, expect
+from signed_in import get
 
 pytestmark = pytest.mark.browser
 
@@ -21,8 +21,8 @@ TITLES = {"her": "HER-Sparse", "her-sldr": "HER-Sparse+SLDR"}
 
 def drawn_numbers(product: str, task: str) -> dict[tuple[str, float], float]:
     """Return the centres that the page draws for a task, by method and env steps."""
-    answer = httpx.get(f"{product}/api/compare", params={"statistic": "mean", "x": "env_steps"}, timeout=60.0)
-    panel: dict[str, Any] = next(panel for panel in answer.json()["panels"] if panel["task"] == task)
+    compared = get(product, "/api/compare?statistic=mean&x=env_steps")
+    panel: dict[str, Any] = next(panel for panel in compared["panels"] if panel["task"] == task)
     return {
         (curve["group"], x): centre
         for curve in panel["curves"]

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import httpx
 import pytest
-from playwright.sync_api import FloatRect, Page, expect
+from playwright.sync_api import Browser, FloatRect, Page, expect
+from signed_in import cookies, credentials, get
 
 pytestmark = pytest.mark.browser
 
@@ -25,9 +26,10 @@ BADGE = "header [data-state]"
 
 
 @pytest.fixture(scope="module")
-def run_address(product: str, browser: object) -> str:
+def run_address(product: str, browser: Browser) -> str:
     """Launch a smoke run of her-sldr through the page; return the address of the manipulation run's page."""
-    page = browser.new_page()  # type: ignore[attr-defined]
+    page = browser.new_page()
+    page.context.add_cookies(cookies())  # type: ignore[arg-type]
     outside: list[str] = []
     page.on("request", lambda request: outside.append(request.url) if not request.url.startswith(product) else None)
     page.goto(f"{product}/")
@@ -38,7 +40,7 @@ def run_address(product: str, browser: object) -> str:
     page.wait_for_url(re.compile(r"/runs/\w+|/$|/\?"), timeout=SOON_MS)
     assert [url for url in outside if not url.startswith(("data:", "blob:"))] == []
     page.close()
-    runs = httpx.get(f"{product}/api/runs").json()["runs"]
+    runs = get(product, "/api/runs")["runs"]
     manipulation = next(run for run in runs if run["phase"] == "manipulation")
     assert manipulation["state"] in ("blocked", "queued", "running")
     return f"{product}/runs/{manipulation['id']}"
@@ -57,7 +59,7 @@ def test_locomotion_comes_first_and_the_robot_starts_by_itself(run_address: str,
     page.goto(run_address)
     expect(page.locator(BADGE).first).to_have_text("succeeded", timeout=TRAINED_MS)
     address, run_id = run_address.split("/runs/")
-    runs = {run["id"]: run for run in httpx.get(f"{address}/api/runs").json()["runs"]}
+    runs = {run["id"]: run for run in get(address, "/api/runs")["runs"]}
     (locomotion_id,) = runs[run_id]["needs"]
     assert runs[locomotion_id]["phase"] == "locomotion"
     assert runs[locomotion_id]["ended_at"] <= runs[run_id]["started_at"]
@@ -116,6 +118,7 @@ def test_an_impossible_setting_is_refused_at_its_field(product: str, page: Page)
     page.goto(f"{product}/launch")
     answer = httpx.post(
         f"{product}/api/launches/plan",
+        headers=credentials(product),
         json={
             "task": "FetchPush",
             "phase": "manipulation",

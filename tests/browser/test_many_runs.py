@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
-import time
 from collections.abc import Callable, Iterator
 from contextlib import closing
 
-import httpx
 import pytest
 from many_runs import launch_many
 from playwright.sync_api import Page, expect
+from served_product import PAGE_AND_API, serving
+from signed_in import get
 from store_engines import SqliteStores
 
 from backend.store.database import open_database
@@ -35,27 +32,8 @@ def address(
     with sqlite_stores.fresh(home) as settings:
         with closing(open_database(settings)) as db:
             launch_many(db, RUNS)
-        port = find_free_port()
-        environment = {**os.environ, **settings.as_environment()}
-        process = subprocess.Popen([sys.executable, "-m", "backend.api", "--port", str(port)], env=environment)
-        try:
-            yield _when_it_answers(f"http://127.0.0.1:{port}", process)
-        finally:
-            process.terminate()
-            process.wait()
-
-
-def _when_it_answers(address: str, process: subprocess.Popen[bytes]) -> str:
-    give_up_at = time.monotonic() + SOON_MS / 1000
-    while True:
-        try:
-            httpx.get(f"{address}/healthz", timeout=2.0)
-        except httpx.TransportError:
-            assert process.poll() is None
-            assert time.monotonic() < give_up_at
-            time.sleep(0.1)
-        else:
-            return address
+        with serving(home, find_free_port(), PAGE_AND_API) as address:
+            yield address
 
 
 def test_a_thousand_runs_are_scrolled_selected_and_tagged(address: str, page: Page) -> None:
@@ -76,7 +54,7 @@ def test_a_thousand_runs_are_scrolled_selected_and_tagged(address: str, page: Pa
     page.get_by_placeholder("Type, then Enter").press("Enter")
     page.get_by_role("button", name="Change the tags of").click()
     expect(page.get_by_text("The tags of 1\u202f000 runs are changed.")).to_be_visible(timeout=SOON_MS)
-    assert httpx.get(f"{address}/api/tags").json() == {"tags": [{"tag": "all of them", "runs": RUNS}]}
+    assert get(address, "/api/tags") == {"tags": [{"tag": "all of them", "runs": RUNS}]}
 
 
 def test_the_keyboard_walks_selects_and_opens(address: str, page: Page) -> None:

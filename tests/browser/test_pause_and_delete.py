@@ -8,6 +8,7 @@ from typing import Any
 import httpx
 import pytest
 from playwright.sync_api import Page, expect
+from signed_in import credentials, get
 
 pytestmark = pytest.mark.browser
 
@@ -30,7 +31,7 @@ ORDER = {
 @pytest.fixture(scope="module")
 def run_id(product: str) -> str:
     """Launch a run of small cycles; the tests here follow each other with it."""
-    answer = httpx.post(f"{product}/api/launches", json=ORDER, timeout=10.0)
+    answer = httpx.post(f"{product}/api/launches", json=ORDER, headers=credentials(product), timeout=10.0)
     assert answer.status_code == 201
     return answer.json()["runs"][-1]["id"]
 
@@ -38,14 +39,14 @@ def run_id(product: str) -> str:
 def wait_for_progress(product: str, run_id: str) -> None:
     """Wait until a run has trained a cycle."""
     give_up_at = time.monotonic() + TRAINED_MS / 1000
-    while httpx.get(f"{product}/api/runs/{run_id}", timeout=10.0).json()["progress"] is None:
+    while get(product, f"/api/runs/{run_id}")["progress"] is None:
         assert time.monotonic() < give_up_at, "the run reported no progress"
         time.sleep(0.1)
 
 
 def attempts_of(product: str, run_id: str) -> list[dict[str, Any]]:
     """Return a run's attempts."""
-    return httpx.get(f"{product}/api/runs/{run_id}/attempts", timeout=10.0).json()["attempts"]
+    return get(product, f"/api/runs/{run_id}/attempts")["attempts"]
 
 
 def test_a_run_is_paused_and_goes_on_where_it_was(product: str, run_id: str, page: Page) -> None:

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
-import time
 from collections.abc import Callable, Iterator
 from contextlib import closing
 from dataclasses import dataclass
 
-import httpx
 import pytest
 from playwright.sync_api import Page, Response, expect
+from served_product import PAGE_AND_API, serving
 
 from backend.store.claims import Claim
 from backend.store.database import Database, open_database
@@ -29,8 +25,6 @@ pytestmark = pytest.mark.browser
 
 SOON_MS = 60_000
 """The viewer has come and is compiled by then, even on a busy machine [ms]."""
-STARTED_WITHIN_S = 60.0
-"""The API answers by then [s]."""
 DRAWN_BYTES = 8_000
 """A picture of an empty canvas compresses to less than this."""
 RECORDING = "recording-attempt-1.rrd"
@@ -60,21 +54,14 @@ def served(tmp_path_factory: pytest.TempPathFactory, find_free_port: Callable[[]
     """Serve the page in front of one run with a recording; nothing is trained."""
     home = tmp_path_factory.mktemp("home")
     settings = Settings(home=home, database_url=sqlite_url(home))
-    port = find_free_port()
-    command = [sys.executable, "-m", "backend.api", "--port", str(port)]
     with closing(open_database(settings)) as db:
         launch(db, LaunchOrder("FetchPush", "manipulation", "her", (0,), "smoke"))
         held = claim(db, "here", lease_s=3600.0)
         assert held is not None
-        run = ServedRun(f"http://127.0.0.1:{port}", db, settings, held)
-        run.record(points=20)
-        process = subprocess.Popen(command, env={**os.environ, **settings.as_environment()})
-        try:
-            _wait_until_it_answers(run.address)
+        with serving(home, find_free_port(), PAGE_AND_API) as address:
+            run = ServedRun(address, db, settings, held)
+            run.record(points=20)
             yield run
-        finally:
-            process.terminate()
-            process.wait()
 
 
 def test_the_recording_opens_on_the_page_and_is_renewed(served: ServedRun, page: Page) -> None:
@@ -103,15 +90,3 @@ def test_the_recording_opens_on_the_page_and_is_renewed(served: ServedRun, page:
     [compressed] = wasm
     assert compressed.headers["content-encoding"] == "gzip"
     assert "immutable" in compressed.headers["cache-control"]
-
-
-def _wait_until_it_answers(address: str) -> None:
-    give_up_at = time.monotonic() + STARTED_WITHIN_S
-    while time.monotonic() < give_up_at:
-        try:
-            httpx.get(f"{address}/healthz", timeout=2.0)
-        except httpx.TransportError:
-            time.sleep(0.1)
-            continue
-        return
-    pytest.fail("the API did not come up")

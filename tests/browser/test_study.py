@@ -6,9 +6,9 @@ import re
 import time
 from typing import Any
 
-import httpx
 import pytest
 from playwright.sync_api import Browser, Page, expect
+from signed_in import cookies, get
 
 pytestmark = [pytest.mark.browser, pytest.mark.timeout(900)]
 
@@ -26,6 +26,7 @@ SEEDS = (0, 1, 2)
 def study_address(product: str, browser: Browser) -> str:
     """Launch a smoke study of two methods and three seeds through the page; return the address of its page."""
     page = browser.new_page()
+    page.context.add_cookies(cookies())  # type: ignore[arg-type]
     page.goto(f"{product}/")
     page.get_by_role("link", name="Studies").click()
     page.get_by_role("link", name="New study").click()
@@ -48,7 +49,7 @@ def finished_study(product: str, study_address: str) -> str:
     seen: dict[str, Any] = {}
     moved_at = time.monotonic()
     while seen.get("states") != {"succeeded": len(METHODS) * len(SEEDS)}:
-        study = httpx.get(f"{product}/api/studies/{study_id}", timeout=STILL_S).json()
+        study = get(product, f"/api/studies/{study_id}")
         if (study["states"], study["progress"]) != (seen.get("states"), seen.get("progress")):
             seen, moved_at = study, time.monotonic()
         assert "failed" not in study["states"]

@@ -11,6 +11,7 @@ import httpx
 import numpy as np
 import pytest
 from playwright.sync_api import Page, ViewportSize, expect
+from signed_in import credentials, get
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Origin
 
@@ -29,20 +30,16 @@ SMALL: ViewportSize = {"width": 480, "height": 640}
 ORDER = {"task": "FetchPush", "phase": "manipulation", "method": "her-sldr", "preset": "smoke", "seeds": [0]}
 
 
-def get(address: str) -> Any:
-    return httpx.get(address, timeout=10.0).raise_for_status().json()
-
-
 @pytest.fixture(scope="module")
 def run_id(product: str) -> str:
     """Return a smoke run of her-sldr that has succeeded: one that is there already, or a new one."""
     wanted = {"task": "FetchPush", "phase": "manipulation", "method": "her-sldr"}
-    known = [run["id"] for run in get(f"{product}/api/runs")["runs"] if wanted.items() <= run.items()]
+    known = [run["id"] for run in get(product, "/api/runs")["runs"] if wanted.items() <= run.items()]
     if not known:
-        launched = httpx.post(f"{product}/api/launches", json=ORDER, timeout=10.0).json()["runs"]
+        launched = httpx.post(f"{product}/api/launches", json=ORDER, headers=credentials(product)).json()["runs"]
         known = [run["id"] for run in launched if run["phase"] == "manipulation"]
     give_up_at = time.monotonic() + TRAINED_S
-    while (state := get(f"{product}/api/runs/{known[0]}")["state"]) != "succeeded":
+    while (state := get(product, f"/api/runs/{known[0]}")["state"]) != "succeeded":
         assert state != "failed"
         assert time.monotonic() < give_up_at, f"the run is still {state}"
         time.sleep(0.5)
@@ -52,10 +49,10 @@ def run_id(product: str) -> str:
 @pytest.fixture(scope="module")
 def recorded(product: str, run_id: str, tmp_path_factory: pytest.TempPathFactory) -> tuple[int, RecordedEpisode]:
     """Return the newest recorded epoch and its first episode, downloaded as a person would."""
-    files = {file["name"]: file["url"] for file in get(f"{product}/api/runs/{run_id}/files")["files"]}
+    files = {file["name"]: file["url"] for file in get(product, f"/api/runs/{run_id}/files")["files"]}
     name = max(name for name in files if name.startswith("episodes-epoch-"))
     path = tmp_path_factory.mktemp("download") / name
-    path.write_bytes(httpx.get(f"{product}{files[name]}", timeout=10.0).content)
+    path.write_bytes(httpx.get(f"{product}{files[name]}", headers=credentials(product)).content)
     test = read_episodes(path)
     return test.origin.epoch, test.episodes[0]
 
@@ -65,7 +62,7 @@ def dial(product: str, page: Page) -> ClientConnection:
     address = page.locator("iframe[title='3D view']").get_attribute("src")
     assert address is not None
     control = f"{product}{address.split('?')[0]}control".replace("http", "ws")
-    return connect(control, origin=Origin(product), proxy=None)
+    return connect(control, origin=Origin(product), additional_headers=credentials(product), proxy=None)
 
 
 def report(session: ClientConnection) -> dict[str, Any]:

@@ -14,6 +14,7 @@ import httpx
 from chaos_service import HERE, Service, make_service, running
 from chaos_table import Finding
 
+from backend.store.access.local_token import load_local_token
 from backend.store.database import open_database
 from backend.store.runs import RunFilter, list_runs
 from backend.store.settings import Settings
@@ -111,13 +112,13 @@ def _ask_for(order: Crowd, service: Service, answers: Answers) -> None:
     """Let clients ask for as long as the order says, and launch runs."""
     until = time.monotonic() + order.seconds
     clients = [
-        threading.Thread(target=_ask, args=(random.Random(order.seed + number), service.addresses, answers, until))
+        threading.Thread(target=_ask, args=(random.Random(order.seed + number), service, answers, until))
         for number in range(order.clients)
     ]
     for client in clients:
         client.start()
     seeds = iter(range(10**9))
-    with httpx.Client(trust_env=False, timeout=ANSWER_PATIENCE_S) as client:
+    with httpx.Client(trust_env=False, timeout=ANSWER_PATIENCE_S, headers=_token_header(service)) as client:
         while time.monotonic() < until:
             service.keep_alive()
             wanted = {"task": "FetchPush", "method": "her", "preset": "smoke"}
@@ -128,11 +129,11 @@ def _ask_for(order: Crowd, service: Service, answers: Answers) -> None:
         client.join()
 
 
-def _ask(drawn: random.Random, addresses: list[str], answers: Answers, until: float) -> None:
+def _ask(drawn: random.Random, service: Service, answers: Answers, until: float) -> None:
     """Do what pages do: look at the table, at a run, its curves and history; now and then cancel one."""
-    with httpx.Client(trust_env=False, timeout=ANSWER_PATIENCE_S) as client:
+    with httpx.Client(trust_env=False, timeout=ANSWER_PATIENCE_S, headers=_token_header(service)) as client:
         while time.monotonic() < until:
-            address = drawn.choice(addresses)
+            address = drawn.choice(service.addresses)
             page = _count(client, answers, "GET", f"{address}/api/runs")
             _count(client, answers, "GET", f"{address}/api/workers")
             runs = page["runs"] if page else []
@@ -142,6 +143,10 @@ def _ask(drawn: random.Random, addresses: list[str], answers: Answers, until: fl
                     _count(client, answers, "GET", run + part)
                 if drawn.random() < 0.05:
                     _count(client, answers, "POST", run + "/cancel")
+
+
+def _token_header(service: Service) -> dict[str, str]:
+    return {"Authorization": f"Bearer {load_local_token(service.settings)}"}
 
 
 def _count(client: httpx.Client, answers: Answers, method: str, url: str, body: object = None) -> dict | None:

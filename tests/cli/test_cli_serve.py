@@ -142,7 +142,8 @@ def test_the_service_starts_heals_and_ends_as_one(tmp_path: Path, free_port: int
         watchdog.start()
         assert serving.stdout is not None
         greeting = serving.stdout.readline()
-        assert greeting.startswith(f"SLDR is at {address} "), (tmp_path / "errors").read_text()
+        assert greeting.startswith(f"SLDR is at {address}/?token="), (tmp_path / "errors").read_text()
+        client.get(greeting.split()[3], follow_redirects=True)  # as a person does; the cookie stays with the client
         wait_for(lambda: client.get(f"{address}/healthz").json()["status"] == "ok")
 
         second = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=PATIENCE_S)

@@ -52,6 +52,7 @@ OTHER_WORDS = {
     "locomotion_robot": ("still", {}),
     "device": ("cpu", {}),
     "precision": ("bfloat16", {}),
+    "collecting": ("beside", {}),
     "reward": ("action_distance", {}),
 }
 ONLY_ONE_VALUE = {("task",)}

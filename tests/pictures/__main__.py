@@ -14,12 +14,12 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
-import httpx
 from PIL import Image
 from playwright.sync_api import Browser, Page, sync_playwright
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
+import signed_in
 from plausible_runs import WHOLE, play_out
 from served_product import PAGE_AND_API, serving
 
@@ -56,6 +56,7 @@ PAGES = {
     "configs": ("/compare/configs?runs={run_id},{other_id}", "main table"),
     "queue": ("/queue", "main li"),
     "workers": ("/workers", "main h2, main h3"),
+    "settings": ("/settings", "main h2"),
 }
 """Address of each page, and what is there once it has drawn itself."""
 
@@ -103,7 +104,7 @@ def _share_of(claimed: Claim) -> float:
 
 def _visit_all(browser: Browser, address: str, database: Database, directory: Path, wanted: Sequence[str]) -> None:
     def get(path: str) -> dict[str, list[dict[str, str]]]:
-        return httpx.get(f"{address}{path}", timeout=30.0).json()
+        return signed_in.get(address, path)
 
     first = get("/api/runs?state=running&task=HandBlockRotate&method=her-sldr")["runs"][0]["id"]
     other = get("/api/runs?state=succeeded&task=HandBlockRotate&method=her")["runs"][0]["id"]
@@ -113,6 +114,7 @@ def _visit_all(browser: Browser, address: str, database: Database, directory: Pa
             viewport={"width": WINDOW[0], "height": WINDOW[1]},
             color_scheme=scheme,  # type: ignore[arg-type]
         )
+        page.context.add_cookies(signed_in.cookies())  # type: ignore[arg-type]
         for name in wanted:
             path, drawn = PAGES[name]
             for worker in list_workers(database):

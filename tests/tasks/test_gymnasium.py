@@ -18,7 +18,7 @@ from sldr_core.registration import Registered, register_envs, registered_envs
 ALL = list(registered_envs())
 every_env = pytest.mark.parametrize("registered", ALL, ids=[env.id for env in ALL])
 
-SB3_STEPS = 150
+SB3_STEPS = 300
 MAX_GROWTH = 4e6  # [bytes]
 WARM_UP = 300  # resets after which the allocator has what it needs
 

@@ -17,8 +17,9 @@ from trimesh.visual.material import PBRMaterial
 from sldr_core.envs import make_envs
 from worker.viewer.dress import dress, geom_rgba, is_visible
 from worker.viewer.page import open_page
-from worker.viewer.scene import Kinematics, Look, Poses, SceneView
+from worker.viewer.scene import Look, SceneView
 from worker.viewer.shapes import geom_mesh, linear_from_srgb
+from worker.viewer.skeleton import Kinematics
 
 SHAPES = """
 <mujoco>
@@ -47,6 +48,17 @@ HALF_SIZES = {
 }
 
 
+def placed(nodes: dict[int, viser.FrameHandle], prefix: str) -> dict[int, tuple[np.ndarray, np.ndarray]]:
+    """Return where a page shows bodies, position and quaternion: a node is placed in that above it."""
+    found: dict[str, tuple[np.ndarray, np.ndarray]] = {prefix: (np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0]))}
+    for node in nodes.values():
+        (position, quaternion), offset, place = found[node.name.rpartition("/")[0]], np.empty(3), np.empty(4)
+        mujoco.mju_rotVecQuat(offset, np.asarray(node.position), quaternion)
+        mujoco.mju_mulQuat(place, quaternion, np.asarray(node.wxyz))
+        found[node.name] = position + offset, place
+    return {body: found[node.name] for body, node in nodes.items()}
+
+
 @pytest.fixture(scope="module")
 def server() -> Iterator[viser.ViserServer]:
     server = open_page()
@@ -66,7 +78,7 @@ def test_every_visible_geom_has_a_node_and_no_other(server, phase):
     visible = {geom for geom in range(model.ngeom) if is_visible(model, geom)}
     assert set(view.geom_nodes) == visible
     assert model.geom("object0").id in visible
-    assert {model.body(b).name for b in view.body_nodes} >= {"object0", "table0"}
+    assert {model.body(b).name for b in view.skeleton.nodes} >= {"object0", "table0"}
 
 
 def test_the_mocap_lines_are_left_out():
@@ -134,9 +146,9 @@ def test_shown_poses_equal_mujoco_s(server):
     data = mujoco.MjData(envs.model)
     data.qpos[:] = envs.qpos[0]
     mujoco.mj_forward(envs.model, data)
-    for body, node in view.body_nodes.items():
-        assert node.position == pytest.approx(data.xpos[body], abs=1e-6)
-        assert node.wxyz == pytest.approx(data.xquat[body], abs=1e-6)
+    for body, (position, quaternion) in placed(view.skeleton.nodes, "/poses").items():
+        assert position == pytest.approx(data.xpos[body], abs=5e-5)
+        assert quaternion == pytest.approx(data.xquat[body] * np.sign(quaternion @ data.xquat[body]), abs=5e-5)
     for geom, node in view.geom_nodes.items():
         assert node.position == pytest.approx(envs.model.geom_pos[geom])
         assert node.wxyz == pytest.approx(envs.model.geom_quat[geom])
@@ -149,12 +161,40 @@ def test_two_scenes_on_one_page_do_not_meet(server, shapes):
     assert all(node.name.startswith("/ghost/") for node in ghost.geom_nodes.values())
 
 
-def test_a_pose_between_two_takes_the_short_way_round():
-    there = Poses(np.array([[2.0, 0, 0]]), np.array([[-np.cos(0.2), 0, 0, -np.sin(0.2)]]))
-    here = Poses(np.array([[0.0, 0, 0]]), np.array([[1.0, 0, 0, 0]]))
-    middle = here.towards(there, 0.5)
-    assert middle.pos[0] == pytest.approx([1.0, 0, 0])
-    assert middle.quat[0] == pytest.approx([np.cos(0.1), 0, 0, np.sin(0.1)], abs=1e-6)
+def test_a_joint_between_two_positions_takes_the_short_way_round():
+    model = mujoco.MjModel.from_xml_string(
+        "<mujoco><worldbody><body><freejoint/><geom size='.1'/></body></worldbody></mujoco>"
+    )
+    here, there = np.array([0.0, 0, 0, 1, 0, 0, 0]), np.array([2.0, 0, 0, -np.cos(0.2), 0, 0, -np.sin(0.2)])
+    middle = Kinematics(model).poses_between(here, there, 0.5)
+    assert middle.pos[1] == pytest.approx([1.0, 0, 0])
+    assert middle.quat[1] == pytest.approx([np.cos(0.1), 0, 0, np.sin(0.1)], abs=1e-6)
+
+
+def test_a_limb_keeps_its_length_between_two_positions():
+    model = make_envs("HandBlockRotate").model
+    there = model.qpos0.copy()
+    there[:24] += 0.8
+    kinematics = Kinematics(model)
+    lengths = [
+        np.linalg.norm(poses.pos[model.body("robot0:ffdistal").id] - poses.pos[model.body("robot0:ffmiddle").id])
+        for poses in (kinematics.poses(model.qpos0), kinematics.poses_between(model.qpos0, there, 0.5))
+    ]
+    assert lengths[0] == pytest.approx(lengths[1], abs=1e-12)
+
+
+def test_a_body_that_stands_still_is_not_sent_again(server, monkeypatch):
+    model = make_envs("HandBlockRotate").model
+    view, kinematics = SceneView(server, model, prefix="/still"), Kinematics(model)
+    qpos = model.qpos0.copy()
+    view.show(kinematics.poses(qpos))
+    sent = []
+    monkeypatch.setattr(server.scene, "_queue_scene_message", sent.append)
+    view.show(kinematics.poses(qpos))
+    assert sent == []
+    qpos[model.joint("robot0:FFJ3").qposadr] += 0.3  # the whole finger goes with its knuckle
+    view.show(kinematics.poses(qpos))
+    assert [type(message).__name__ for message in sent] == ["SetOrientationMessage"]
 
 
 def test_the_goal_turns_green_when_reached(server):

@@ -27,6 +27,8 @@ COMMANDS = {
     "restore": "Bring back what backup has copied.",
     "list": "List tasks, methods, presets or shipped locomotion models.",
     "zoo": "Put locomotion models into the zoo, measured.",
+    "retention": "Make room: let go what ended runs no longer need.",
+    "doctor": "See whether everything here works, and how to mend what does not.",
 }
 
 MODULES = {"import": "import_study"}

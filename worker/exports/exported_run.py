@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import timedelta
 
+from backend.client.records.runs import RunDetail
 from backend.comparison.variants import as_text, flatten
 from backend.store.database import Database
 from backend.store.runs import RunRow
@@ -17,7 +18,8 @@ from worker.recording.curves import read_curves
 class ExportedRun:
     """Hold one run."""
 
-    row: RunRow
+    row: RunRow | RunDetail
+    """The run, as the store has it or as a service has told it."""
     steps: Sequence[Step]
     curves: Mapping[str, Sequence[float | None]]
     """Values per metric, as long as the steps; None where a metric was not logged."""

@@ -11,6 +11,7 @@ from multiprocessing.connection import Connection
 from sldr_core.errors import SldrError
 from worker.media.orders import Answer, DrawOrder, NotDrawn
 from worker.mortality import end_with_parent
+from worker.priority import give_way
 from worker.render import NoRenderer, off_screen
 
 NICENESS = 10
@@ -25,7 +26,7 @@ log = logging.getLogger("sldr.media")
 def serve_orders(host: Connection, host_pid: int) -> None:
     """Answer orders with files; the entry point of the process."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    os.nice(NICENESS)
+    give_way(NICENESS)
     end_with_parent()
     if os.getppid() != host_pid:
         raise SystemExit(1)

@@ -11,6 +11,7 @@ import threading
 from collections.abc import Callable
 from pathlib import Path
 
+from backend.logs import load_style, start_logging
 from backend.store.database import open_database
 from backend.store.errors import StoreUnavailable
 from backend.store.settings import Settings, load_settings
@@ -35,12 +36,13 @@ def main() -> int:
     parser.add_argument("--policy", type=Path, metavar="FILE", help="show this policy, without the service")
     parser.add_argument("--port", type=int, default=0, help="port for --policy (0: a free one)")
     options = parser.parse_args()
-    logging.basicConfig(stream=sys.stderr, level=logging.INFO, format="%(asctime)s %(name)s %(message)s")
+    settings = load_settings()
     try:
+        start_logging("viewer", settings.logs_directory, load_style())
         if options.policy is not None:
             _show_one(options.policy, options.port)
         else:
-            host_sessions(load_settings())
+            host_sessions(settings)
     except SldrError as err:
         print(err, file=sys.stderr)
         return 2

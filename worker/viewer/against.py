@@ -15,8 +15,9 @@ from numpy.typing import NDArray
 from worker.viewer.arrows import INDUCED_RGB, WANTED_RGB, ActionArrows, ArrowSize
 from worker.viewer.commands import Command
 from worker.viewer.demonstration import PartDemonstration
-from worker.viewer.scene import Kinematics, Look, Poses, SceneView
+from worker.viewer.scene import Look, SceneView
 from worker.viewer.simulated import Array
+from worker.viewer.skeleton import Kinematics, Poses
 from worker.viewer.tracks import Track
 
 GHOST_LOOK = Look(opacity=0.45, tint=(0.35, 0.72, 1.0), objects_only=True)

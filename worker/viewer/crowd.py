@@ -12,8 +12,9 @@ import viser
 from numpy.typing import NDArray
 
 from worker.viewer.dress import dress, goal_sites, is_visible
-from worker.viewer.scene import GOAL_RADIUS, REACHED_RGB, Poses
+from worker.viewer.scene import GOAL_RADIUS, REACHED_RGB
 from worker.viewer.shapes import geom_mesh
+from worker.viewer.skeleton import Poses
 
 
 def grid_offsets(count: int, spacing: tuple[float, float]) -> NDArray[np.float64]:

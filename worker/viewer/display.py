@@ -15,7 +15,8 @@ from worker.viewer.against import Against
 from worker.viewer.camera import Camera, find_camera
 from worker.viewer.crowd import Crowd, grid_offsets
 from worker.viewer.page import look_through
-from worker.viewer.scene import Kinematics, Look
+from worker.viewer.scene import Look
+from worker.viewer.skeleton import Kinematics
 from worker.viewer.stage import Stage
 from worker.viewer.tracks import Track, goal_positions
 
@@ -102,11 +103,13 @@ class Lanes:
     def draw(self, step: int, share: float) -> None:
         """Draw every copy."""
         now = [track.moment(step) for track in self.tracks]
-        poses = [self._kinematics.poses(each.qpos) for each in now]
-        if share > 0.0:
-            later = [self._kinematics.poses(track.moment(step + 1).qpos) for track in self.tracks]
-            poses = [before.towards(after, share) for before, after in zip(poses, later, strict=True)]
-        self._crowd.show(poses)
+        later = [track.moment(step + 1) for track in self.tracks] if share > 0.0 else now
+        self._crowd.show(
+            [
+                self._kinematics.poses_between(before.qpos, after.qpos, share)
+                for before, after in zip(now, later, strict=True)
+            ]
+        )
         for copy, (track, moment) in enumerate(zip(self.tracks, now, strict=True)):
             self._crowd.show_goals(copy, goal_positions(self._task, moment.goal), track.is_reached(step))
 

@@ -4,17 +4,21 @@ from __future__ import annotations
 
 import logging
 import multiprocessing
-import os
 import signal
 import sys
+from functools import partial
 from multiprocessing.connection import Connection
 
 from sldr_core.errors import SldrError
 from worker.mortality import end_with_parent
+from worker.priority import give_way
 from worker.viewer.reports import Broken, Job
 
-NICENESS = 5
-"""Watching gives way to training."""
+OPENING_NICENESS = 5
+"""Until its page is loaded a person waits for a view."""
+
+NICENESS = 15
+"""Watching gives way to training: a view gets about a thirtieth of a core that a training keeps busy."""
 
 log = logging.getLogger("sldr.viewer")
 
@@ -30,7 +34,7 @@ def serve_session(job: Job, host: Connection) -> None:
         from worker.viewer.session import serve
 
         torch.set_num_threads(1)
-        serve(job, host)
+        serve(job, host, watched=partial(give_way, NICENESS))
     except BrokenPipeError:
         raise SystemExit(1) from None
     except SldrError as err:
@@ -46,7 +50,7 @@ def _end_with_host() -> None:
     Its parent is the process it was forked from, which ends with the host.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    os.nice(NICENESS)
+    give_way(OPENING_NICENESS)
     end_with_parent()
     host = multiprocessing.parent_process()
     if host is None or not host.is_alive():

@@ -23,6 +23,9 @@ from worker.viewer.shows import open_show
 FRAME_S = 1.0 / 30.0
 """Time between two frames [s]."""
 
+STATE_S = 1.0 / 15.0
+"""Time between two states that tell only that time has passed [s]; what a page asks for is told at once."""
+
 UNWATCHED_S = 0.2
 """Time between two looks for a client while nobody watches; nothing is simulated then [s]."""
 
@@ -88,8 +91,8 @@ def open_session(job: Job, port: int = 0) -> Session:
     return session
 
 
-def serve(job: Job, host: Connection) -> None:
-    """Open a session, tell the host, and run it for ever.
+def serve(job: Job, host: Connection, watched: Callable[[], None]) -> None:
+    """Open a session, tell the host, and run it for ever; call `watched` whenever a page has been loaded.
 
     Raises:
         SldrError: what it needs cannot be used.
@@ -97,16 +100,23 @@ def serve(job: Job, host: Connection) -> None:
     """
     session = open_session(job)
     host.send(Ready(session.port, session.show.message, session.control.port))
-    watch(session, lambda clients: host.send(Watched(clients)))
+
+    def tell(clients: int) -> None:
+        host.send(Watched(clients))
+        if clients > 0:
+            watched()
+
+    watch(session, tell)
 
 
 def watch(session: Session, tell: Callable[[int], None] = lambda clients: None) -> None:
     """Run a session for ever; tell each time the number of people who watch has changed."""
-    clients, last, due = -1, time.monotonic(), 0.0
+    clients, last, due, tell_due = -1, time.monotonic(), 0.0, 0.0
     while True:
         frame_s = FRAME_S if clients > 0 else UNWATCHED_S
-        for asked in session.control.take(max(due - time.monotonic(), 0.0)):
-            session.answer(asked)
+        asked = session.control.take(max(due - time.monotonic(), 0.0))
+        for each in asked:
+            session.answer(each)
         now = time.monotonic()
         if now >= due:
             due = max(due + frame_s, now)
@@ -115,5 +125,7 @@ def watch(session: Session, tell: Callable[[int], None] = lambda clients: None) 
             tell(clients)
         if clients > 0:
             session.show.advance(now - last)
-            session.control.publish(session.state())
+            if asked or now >= tell_due:
+                tell_due = max(tell_due + STATE_S, now)
+                session.control.publish(session.state())
         last = now

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from sldr_core.envs import Envs
+from sldr_core.envs import Envs, Observation
 
 Array = NDArray[np.float64]
 Act = Callable[[Array, Array], NDArray[np.float32]]
@@ -40,6 +40,8 @@ class _Known:
     """All lanes at one control step, and all that decides what comes next."""
 
     moments: tuple[Moment, ...]
+    reached: NDArray[np.bool_]
+    """Whether each lane meets its goal, `[N]`."""
     state: dict[str, Any]
 
 
@@ -81,7 +83,7 @@ class Simulated:
     def restart(self) -> None:
         """Begin a new episode in every lane, from new starts and toward new goals."""
         self._begin(self.envs)
-        self._known, self._actions = [self._see()], []
+        self._known, self._actions = [self._see(self.envs.observe())], []
         self.version += 1
 
     def moment(self, step: int, lane: int = 0) -> Moment:
@@ -96,8 +98,8 @@ class Simulated:
 
     def is_reached(self, step: int, lane: int = 0) -> bool:
         """Tell whether the goal is met at a step."""
-        moment = self.moment(step, lane)
-        return bool(self.envs.success(moment.achieved, moment.goal))
+        self.simulate_to(step)
+        return bool(self._known[step].reached[lane])
 
     def simulate_to(self, step: int) -> None:
         """Simulate up to a step, at most to the episode's end."""
@@ -105,9 +107,9 @@ class Simulated:
             now = self._known[-1].moments
             obs, goal = (np.stack([getattr(lane, name) for lane in now]) for name in ("obs", "goal"))
             action = self._act(obs, goal)
-            self.envs.step(action)
+            seen = self.envs.step(action)
             self._actions.append(np.asarray(action, dtype=np.float32).copy())
-            self._known.append(self._see())
+            self._known.append(self._see(seen))
 
     def branch(self, step: int, change: Callable[[Envs], None]) -> None:
         """Go back to a known step, change something there, and forget what came after."""
@@ -115,13 +117,13 @@ class Simulated:
         del self._known[step + 1 :], self._actions[step:]
         self.envs.restore(self._known[step].state)
         change(self.envs)
-        self._known[step] = self._see()
+        self._known[step] = self._see(self.envs.observe())
         self.version += 1
 
-    def _see(self) -> _Known:
-        envs, seen = self.envs, self.envs.observe()
+    def _see(self, seen: Observation) -> _Known:
+        envs = self.envs
         moments = tuple(
             Moment(envs.qpos[lane].copy(), envs.qvel[lane].copy(), seen.obs[lane], seen.achieved[lane], seen.goal[lane])
             for lane in range(envs.num_envs)
         )
-        return _Known(moments, envs.state())
+        return _Known(moments, envs.success(seen.achieved, seen.goal), envs.state())

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from sldr_core.config import TaskSpec
 from worker.viewer.against import VERBS, Against
 from worker.viewer.commands import Command, unknown_command
-from worker.viewer.scene import SOLID, Kinematics, Look, SceneView
+from worker.viewer.scene import SOLID, Look, SceneView
+from worker.viewer.skeleton import Kinematics
 from worker.viewer.tracks import Track, goal_positions
 
 PATH_RGB = (110, 110, 120)
@@ -37,6 +38,8 @@ class Stage:
         self._view = SceneView(server, model, prefix, look)
         self._kinematics = Kinematics(model)
         self._path = PathLine(server, f"{prefix}/path", PATH_RGB, PATH_WIDTH)
+        self._drawn: object = None
+        self._poses = self._kinematics.poses(model.qpos0)
 
     @property
     def verbs(self) -> tuple[str, ...]:
@@ -46,15 +49,18 @@ class Stage:
     def draw(self, track: Track, step: int, share: float = 0.0) -> None:
         """Draw a step, or a moment a share of the way to the next; both have to be known or will be simulated."""
         now = track.moment(step)
-        poses = self._kinematics.poses(now.qpos)
-        if share > 0.0:
-            poses = poses.towards(self._kinematics.poses(track.moment(step + 1).qpos), share)
+        later = track.moment(step + 1) if share > 0.0 else now
+        version = (id(track), track.version, step)
         with self._server.atomic():
-            self._view.show(poses)
-            self._view.show_goals(goal_positions(self._task, now.goal), track.is_reached(step))
-            self._path.show(self._walked(track, step), (id(track), track.version, step))
+            if (version, share) != self._drawn:
+                self._drawn = version, share
+                self._poses = self._kinematics.poses_between(now.qpos, later.qpos, share)
+                self._view.show(self._poses)
+                self._view.show_goals(goal_positions(self._task, now.goal), track.is_reached(step))
+            if version != self._path.version:
+                self._path.show(self._walked(track, step), version)
             if self.against is not None:
-                self.against.draw(track, step, poses)
+                self.against.draw(track, step, self._poses)
 
     def obey(self, command: Command, others: tuple[str, ...] = ()) -> None:
         """Do what a command of the demonstration says.

@@ -7,6 +7,7 @@ from typing import Any
 from fastapi import APIRouter
 from fastapi.responses import FileResponse
 
+from backend.api.access.declarations import needs
 from backend.api.dependencies import ServiceSettings
 from backend.api.errors import ApiError, problem_responses
 from backend.api.schemas import Choices, Method, PresetSummary, Task
@@ -18,6 +19,7 @@ router = APIRouter(prefix="/api", tags=["choices"])
 
 
 @router.get("/choices", responses=problem_responses())
+@needs("viewer")
 def get_choices() -> Choices:
     """List tasks, phases, methods and presets, with the JSON schema of a config."""
     return Choices(
@@ -43,6 +45,7 @@ def get_choices() -> Choices:
     response_class=FileResponse,
     responses={200: {"content": {"image/png": {}}}} | problem_responses(404, 422),
 )
+@needs("viewer")
 def get_task_picture(task: str, settings: ServiceSettings) -> FileResponse:
     """Send the rendered picture of a task."""
     if task not in TASKS:
@@ -54,6 +57,7 @@ def get_task_picture(task: str, settings: ServiceSettings) -> FileResponse:
 
 
 @router.get("/defaults", responses=problem_responses(422))
+@needs("viewer")
 def get_defaults(task: str, phase: Phase, method: str, preset: str) -> dict[str, Any]:
     """Return the whole config that a launch would use with seed 0 and no overrides."""
     return config_to_dict(make_config(task, phase, method, 0, preset))

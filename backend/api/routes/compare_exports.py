@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal
 from fastapi import APIRouter, Query
 from fastapi.responses import Response
 
+from backend.api.access.declarations import needs
 from backend.api.compare_questions import Choice, FigureLook, Look, View
 from backend.api.dependencies import Memory, Store
 from backend.api.errors import problem_responses
@@ -41,6 +42,7 @@ def _content(*media_types: str) -> dict[int | str, dict[str, Any]]:
 @router.get(
     "/figure.{format}", response_class=Response, responses=_content(*MEDIA_TYPES.values()) | problem_responses(404, 422)
 )
+@needs("viewer")
 def get_figure(
     format: FigureFormat, choice: Choice, view: View, look: FigureLook, store: Store, memory: Memory
 ) -> Response:
@@ -51,6 +53,7 @@ def get_figure(
 
 
 @router.get("/bundle.zip", response_class=Response, responses=_content("application/zip") | problem_responses(404, 422))
+@needs("viewer")
 def get_bundle(
     choice: Choice,
     view: View,

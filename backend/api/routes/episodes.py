@@ -9,6 +9,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Path, Query
 from numpy.typing import NDArray
 
+from backend.api.access.declarations import needs
 from backend.api.dependencies import Storage, Store
 from backend.api.episode_schemas import Episode, EpisodeList, EpisodeTimelines
 from backend.api.errors import problem_responses
@@ -28,6 +29,7 @@ router = APIRouter(prefix="/api/runs/{run_id}/episodes", tags=["runs"])
 
 
 @router.get("", responses=problem_responses(404, 422))
+@needs("viewer")
 def list_run_episodes(
     run_id: str,
     store: Store,
@@ -46,6 +48,7 @@ def list_run_episodes(
 
 
 @router.get("/{epoch}/{index}", responses=problem_responses(404, 422))
+@needs("viewer")
 def get_run_episode(run_id: str, epoch: Number, index: Number, store: Store, storage: Storage) -> EpisodeTimelines:
     """Return what happened in one recorded episode, and what the streams and critics said of it."""
     runs.get_run(store, run_id)

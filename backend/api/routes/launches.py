@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from fastapi import APIRouter
 
+from backend.api.access.declarations import needs
 from backend.api.answers import run_summary
 from backend.api.dependencies import ServiceSettings, Store
 from backend.api.errors import problem_responses
@@ -17,6 +18,7 @@ router = APIRouter(prefix="/api/launches", tags=["launches"])
 
 
 @router.post("/plan", responses=problem_responses(400, 403, 422))
+@needs("viewer")
 def plan_launch(launch: Launch, store: Store, settings: ServiceSettings) -> LaunchPlan:
     """Tell what a launch would queue and which existing runs it would share; queue nothing."""
     planned_runs = launches.plan_launch(store, _order(launch), ZooShelf(settings))
@@ -37,6 +39,7 @@ def plan_launch(launch: Launch, store: Store, settings: ServiceSettings) -> Laun
 
 
 @router.post("", status_code=201, responses=problem_responses(400, 403, 422))
+@needs("operator")
 def create_launch(launch: Launch, store: Store, settings: ServiceSettings) -> LaunchResult:
     """Queue a launch's runs, the locomotion run they need first."""
     run_ids = launches.launch(store, _order(launch), ZooShelf(settings))

@@ -8,6 +8,7 @@ from urllib.parse import quote
 from fastapi import APIRouter
 from fastapi.responses import FileResponse, RedirectResponse, Response
 
+from backend.api.access.declarations import needs
 from backend.api.dependencies import ServiceSettings, Storage, Store
 from backend.api.downloads import send_file
 from backend.api.errors import ApiError, problem_responses
@@ -34,6 +35,7 @@ router = APIRouter(prefix="/api/runs/{run_id}", tags=["media"])
     }
     | problem_responses(404, 422),
 )
+@needs("viewer")
 def get_run_thumbnail(run_id: str, store: Store, storage: Storage, settings: ServiceSettings) -> Response:
     """Send the end of an episode of a run's newest policy, as a small picture."""
     run = runs.get_run(store, run_id)
@@ -46,6 +48,7 @@ def get_run_thumbnail(run_id: str, store: Store, storage: Storage, settings: Ser
 
 
 @router.post("/videos", status_code=202, responses=problem_responses(403, 404, 409, 422))
+@needs("operator")
 def order_video(run_id: str, order: VideoOrder, store: Store) -> Video:
     """Order a video of an episode; one that is there or on its way is not made again, one that failed is."""
     runs.get_run(store, run_id)
@@ -58,6 +61,7 @@ def order_video(run_id: str, order: VideoOrder, store: Store) -> Video:
 
 
 @router.get("/videos", responses=problem_responses(404, 422))
+@needs("viewer")
 def list_videos(run_id: str, store: Store) -> Videos:
     """List the videos of a run that were ordered, the newest first."""
     runs.get_run(store, run_id)

@@ -6,6 +6,7 @@ from typing import Annotated
 
 from fastapi import APIRouter, Query
 
+from backend.api.access.declarations import needs
 from backend.api.answers import run_summary
 from backend.api.dependencies import Store
 from backend.api.errors import problem_responses
@@ -19,6 +20,7 @@ router = APIRouter(prefix="/api/queue", tags=["queue"])
 
 
 @router.get("", responses=problem_responses(422))
+@needs("viewer")
 def get_queue(store: Store, limit: Annotated[int, Query(ge=1, le=LARGEST_QUEUE)] = 200) -> Queue:
     """List the first of the runs that have not ended, in the order in which they will start."""
     entries = forecast.list_queue(store)

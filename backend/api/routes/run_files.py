@@ -9,6 +9,7 @@ from urllib.parse import quote
 from fastapi import APIRouter, Header, Query
 from fastapi.responses import FileResponse, Response
 
+from backend.api.access.declarations import needs
 from backend.api.dependencies import ServiceSettings, Storage, Store
 from backend.api.downloads import send_file
 from backend.api.errors import problem_responses
@@ -26,6 +27,7 @@ router = APIRouter(prefix="/api/runs/{run_id}", tags=["runs"])
 
 
 @router.get("/log", responses=problem_responses(404, 422))
+@needs("viewer")
 def get_run_log(
     run_id: str,
     store: Store,
@@ -42,6 +44,7 @@ def get_run_log(
 
 
 @router.get("/files", responses=problem_responses(404, 422))
+@needs("viewer")
 def list_run_files(run_id: str, store: Store) -> RunFiles:
     """List a run's stored files."""
     runs.get_run(store, run_id)
@@ -65,6 +68,7 @@ def list_run_files(run_id: str, store: Store) -> RunFiles:
     response_class=FileResponse,
     responses={200: {"content": {"application/octet-stream": {}}}} | problem_responses(404, 416, 422),
 )
+@needs("viewer")
 def download_run_file(
     run_id: str,
     name: str,

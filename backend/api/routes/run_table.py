@@ -8,6 +8,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Query
 from fastapi.responses import Response
 
+from backend.api.access.declarations import needs
 from backend.api.answers import run_summary
 from backend.api.dependencies import Store
 from backend.api.errors import problem_responses
@@ -41,6 +42,7 @@ CSV: dict[int | str, dict[str, Any]] = {200: {"content": {"text/csv": {}}, "desc
 
 
 @router.get("/runs", responses=problem_responses(422))
+@needs("viewer")
 def list_runs(
     store: Store,
     wanted: WantedRuns,
@@ -64,6 +66,7 @@ def list_runs(
 
 
 @router.get("/runs.csv", response_class=Response, responses=CSV | problem_responses(422))
+@needs("viewer")
 def download_runs(store: Store, wanted: WantedRuns, table: WantedTable) -> Response:
     """Send the table as CSV, in its order and with its columns."""
     columns = table.columns()
@@ -72,6 +75,7 @@ def download_runs(store: Store, wanted: WantedRuns, table: WantedTable) -> Respo
 
 
 @router.get("/run-groups", responses=problem_responses(422))
+@needs("viewer")
 def list_run_groups(
     store: Store,
     wanted: WantedRuns,
@@ -86,6 +90,7 @@ def list_run_groups(
 
 
 @router.get("/run-groups.csv", response_class=Response, responses=CSV | problem_responses(422))
+@needs("viewer")
 def download_run_groups(
     store: Store,
     wanted: WantedRuns,
@@ -101,6 +106,7 @@ def download_run_groups(
 
 
 @router.get("/metric-names", responses=problem_responses())
+@needs("viewer")
 def list_metrics(store: Store) -> MetricNames:
     """List what runs have logged."""
     return MetricNames(names=list_metric_names(store))

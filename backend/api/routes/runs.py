@@ -7,6 +7,7 @@ from typing import Annotated
 
 from fastapi import APIRouter, Query
 
+from backend.api.access.declarations import needs
 from backend.api.answers import run_detail
 from backend.api.dependencies import Store
 from backend.api.errors import problem_responses
@@ -21,12 +22,14 @@ router = APIRouter(prefix="/api/runs", tags=["runs"])
 
 
 @router.get("/{run_id}", responses=problem_responses(404, 422))
+@needs("viewer")
 def get_run(run_id: str, store: Store) -> RunDetail:
     """Return everything about one run but its curves and logs."""
     return run_detail(runs.get_run(store, run_id), files.list_files(store, run_id))
 
 
 @router.get("/{run_id}/metrics", responses=problem_responses(404, 422))
+@needs("viewer")
 def get_run_metrics(
     run_id: str,
     store: Store,
@@ -39,6 +42,7 @@ def get_run_metrics(
 
 
 @router.get("/{run_id}/attempts", responses=problem_responses(404, 422))
+@needs("viewer")
 def list_run_attempts(run_id: str, store: Store) -> Attempts:
     """Return a run's attempts, oldest first."""
     return Attempts(
@@ -59,6 +63,7 @@ def list_run_attempts(run_id: str, store: Store) -> Attempts:
 
 
 @router.get("/{run_id}/events", responses=problem_responses(404, 422))
+@needs("viewer")
 def list_run_events(run_id: str, store: Store) -> RunEvents:
     """Return a run's history, oldest first."""
     rows = runs.list_events(store, run_id)

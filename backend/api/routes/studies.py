@@ -8,6 +8,7 @@ from typing import Annotated
 
 from fastapi import APIRouter, Query
 
+from backend.api.access.declarations import needs
 from backend.api.dependencies import ServiceSettings, Store
 from backend.api.errors import problem_responses
 from backend.api.queue_schemas import ActionResult, ActionResults
@@ -45,6 +46,7 @@ router = APIRouter(prefix="/api/studies", tags=["studies"])
 
 
 @router.get("", responses=problem_responses(422))
+@needs("viewer")
 def list_studies(
     store: Store,
     deleted: Annotated[bool, Query(description="The studies that a person hid, instead of all others.")] = False,
@@ -55,6 +57,7 @@ def list_studies(
 
 
 @router.get("/templates", responses=problem_responses())
+@needs("viewer")
 def list_study_templates() -> StudyTemplates:
     """List the studies that come with the product: the paper's, its families, and one of two minutes."""
     return StudyTemplates(
@@ -71,6 +74,7 @@ def list_study_templates() -> StudyTemplates:
 
 
 @router.post("/preview", responses=problem_responses(400, 403, 404, 409, 422))
+@needs("viewer")
 def preview_study(wish: StudyPreviewRequest, store: Store, settings: ServiceSettings) -> StudyPreview:
     """Tell what launching a study, or a longer spec of one, would do and cost; queue nothing."""
     plan = launch.preview_study(store, store_spec(wish.spec), wish.study_id, ZooShelf(settings))
@@ -78,6 +82,7 @@ def preview_study(wish: StudyPreviewRequest, store: Store, settings: ServiceSett
 
 
 @router.post("", status_code=201, responses=problem_responses(400, 403, 409, 422))
+@needs("operator")
 def create_study(wish: StudyLaunch, store: Store, settings: ServiceSettings) -> StudyOutcome:
     """Make a study and queue the runs that nothing serves yet."""
     shelf = ZooShelf(settings)
@@ -85,18 +90,21 @@ def create_study(wish: StudyLaunch, store: Store, settings: ServiceSettings) -> 
 
 
 @router.get("/{study_id}", responses=problem_responses(404, 422))
+@needs("viewer")
 def get_study(study_id: str, store: Store) -> StudyDetail:
     """Return a study with all its cells."""
     return study_detail(matrix.get_study(store, study_id))
 
 
 @router.patch("/{study_id}", status_code=204, responses=problem_responses(400, 403, 404, 409, 422))
+@needs("operator")
 def change_study(study_id: str, change: StudyChange, store: Store) -> None:
     """Give a study another name or note."""
     launch.rename_study(store, study_id, change.name, change.note)
 
 
 @router.post("/{study_id}/extend", responses=problem_responses(400, 403, 404, 409, 422))
+@needs("operator")
 def extend_study(study_id: str, addition: StudyAddition, store: Store, settings: ServiceSettings) -> StudyOutcome:
     """Add tasks, methods or seeds to a study, and queue every run that it then misses."""
     wanted = Addition(tuple(addition.tasks), tuple(addition.methods), tuple(addition.seeds))
@@ -104,12 +112,14 @@ def extend_study(study_id: str, addition: StudyAddition, store: Store, settings:
 
 
 @router.post("/{study_id}/fill", responses=problem_responses(403, 404, 409, 422))
+@needs("operator")
 def fill_study(study_id: str, store: Store, settings: ServiceSettings) -> StudyOutcome:
     """Queue the runs that a study misses; asked again, it finds nothing to do."""
     return study_outcome(launch.fill_study(store, study_id, ZooShelf(settings)))
 
 
 @router.post("/{study_id}/retry", responses=problem_responses(400, 403, 404, 409, 422))
+@needs("operator")
 def retry_study(study_id: str, wish: StudyRetry, store: Store) -> ActionResults:
     """Try a study's failed or cancelled runs again, and first the locomotion runs that they need."""
     results = retry.retry_study(store, study_id, wish.cancelled)
@@ -117,12 +127,14 @@ def retry_study(study_id: str, wish: StudyRetry, store: Store) -> ActionResults:
 
 
 @router.delete("/{study_id}", status_code=204, responses=problem_responses(403, 404, 409, 422))
+@needs("operator")
 def delete_study(study_id: str, store: Store) -> None:
     """Hide a study; its runs stay as they are."""
     launch.delete_study(store, study_id)
 
 
 @router.post("/{study_id}/restore", status_code=204, responses=problem_responses(403, 404, 409, 422))
+@needs("operator")
 def restore_study(study_id: str, store: Store) -> None:
     """Bring back a deleted study."""
     launch.restore_study(store, study_id)

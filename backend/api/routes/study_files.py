@@ -10,6 +10,7 @@ from fastapi import APIRouter, BackgroundTasks, Request
 from fastapi.responses import FileResponse
 from starlette.concurrency import run_in_threadpool
 
+from backend.api.access.declarations import needs
 from backend.api.dependencies import ServiceSettings, Store
 from backend.api.errors import ApiError, problem_responses
 from backend.api.schemas import Strict
@@ -47,6 +48,7 @@ class SampleStudy(Strict):
 
 
 @router.get("/sample", responses=problem_responses())
+@needs("viewer")
 def get_sample_study() -> SampleStudy:
     """Tell whether a sample study comes with the product, and how large its file is in bytes."""
     path = sample_study()
@@ -54,6 +56,7 @@ def get_sample_study() -> SampleStudy:
 
 
 @router.post("/sample", responses=problem_responses(403, 404, 422))
+@needs("operator")
 def open_sample_study(store: Store, settings: ServiceSettings) -> StudyImport:
     """Take in the sample study; asked again, it is the same one."""
     path = sample_study()
@@ -62,7 +65,10 @@ def open_sample_study(store: Store, settings: ServiceSettings) -> StudyImport:
     return _answer(import_study(store, settings, path, "The sample study"))
 
 
-@router.post("", responses=problem_responses(400, 403, 413, 422), openapi_extra=UPLOAD)
+@router.post(
+    "", responses=problem_responses(400, 403, 413, 422), openapi_extra=UPLOAD, max_body_size=LARGEST_STUDY_FILE
+)
+@needs("operator")
 async def upload_study(request: Request, store: Store, settings: ServiceSettings) -> StudyImport:
     """Take in a study file; the same file twice is the same study. It is treated as if it came from anyone."""
     # Beside the data, where there has to be room for it anyway.
@@ -73,6 +79,7 @@ async def upload_study(request: Request, store: Store, settings: ServiceSettings
 
 
 @router.get("/{study_id}", responses={**DOWNLOAD, **problem_responses(404, 409, 422)}, response_class=FileResponse)
+@needs("viewer")
 def download_study(study_id: str, store: Store, settings: ServiceSettings, after: BackgroundTasks) -> FileResponse:
     """Pack a study into one file: its curves, configs, final policies, models and a few episodes."""
     with tempfile.NamedTemporaryFile(dir=settings.home, prefix=".study-", suffix=".zip", delete=False) as file:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from fastapi import APIRouter
 
+from backend.api.access.declarations import needs
 from backend.api.answers import has_policy
 from backend.api.dependencies import Store, Tokens
 from backend.api.errors import ApiError, problem_responses
@@ -23,6 +24,7 @@ router = APIRouter(prefix="/api/viewer-sessions", tags=["viewer sessions"])
 
 
 @router.post("", status_code=201, responses=problem_responses(400, 403, 404, 409, 422))
+@needs("viewer")
 def create_viewer_session(request: ViewerRequest, store: Store, tokens: Tokens) -> ViewerSession:
     """Ask the viewer host to show something of a run: see the kinds of views."""
     run = get_run(store, request.run_id)
@@ -42,12 +44,14 @@ def create_viewer_session(request: ViewerRequest, store: Store, tokens: Tokens) 
 
 
 @router.get("/{session_id}", responses=problem_responses(404, 422))
+@needs("viewer")
 def get_viewer_session(session_id: str, store: Store, tokens: Tokens) -> ViewerSession:
     """Return a session; once it is ready it has the url to open."""
     return _answer(viewer_sessions.get_session(store, session_id), tokens)
 
 
 @router.delete("/{session_id}", status_code=204, responses=problem_responses(403, 404, 422))
+@needs("viewer")
 def end_viewer_session(session_id: str, store: Store) -> None:
     """End a session and free what it holds."""
     viewer_sessions.get_session(store, session_id)

@@ -6,6 +6,7 @@ from typing import cast
 
 from fastapi import APIRouter
 
+from backend.api.access.declarations import needs
 from backend.api.dependencies import Store
 from backend.api.errors import problem_responses
 from backend.api.queue_schemas import Draining, Worker, WorkerRun, Workers
@@ -18,6 +19,7 @@ router = APIRouter(prefix="/api/workers", tags=["workers"])
 
 
 @router.get("", responses=problem_responses())
+@needs("viewer")
 def list_workers(store: Store) -> Workers:
     """List the workers known to the store, longest serving first."""
     rows = workers.list_workers(store)
@@ -26,6 +28,7 @@ def list_workers(store: Store) -> Workers:
 
 
 @router.put("/{worker_id}/draining", status_code=204, responses=problem_responses(400, 403, 404, 422))
+@needs("operator")
 def set_worker_draining(worker_id: str, wish: Draining, store: Store) -> None:
     """Let a worker keep what it has and take no further run, or let it take runs again."""
     workers.set_draining(store, worker_id, wish.draining)

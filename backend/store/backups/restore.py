@@ -15,6 +15,7 @@ from tempfile import TemporaryDirectory
 
 from sqlalchemy import Connection, insert, select, update
 
+from backend.store.access.tables import invitations, login_sessions
 from backend.store.backups.archive import RUNS, STORE_FILE, Contents, open_archive, read_contents, store_settings
 from backend.store.backups.placing import FilePlacer
 from backend.store.backups.rows import Tell, copy_rows, count_rows, delete_rows
@@ -124,7 +125,7 @@ def _settle(conn: Connection) -> int:
         end_attempt(conn, row, outcome, at, backoff_s=0.0)
     conn.execute(update(runs).values(fence=runs.c.fence + FENCE_LEAP))
     conn.execute(update(workers).where(workers.c.retired_at.is_(None)).values(retired_at=at))
-    for table in (viewer_sessions, viewer_hosts):
+    for table in (viewer_sessions, viewer_hosts, login_sessions, invitations):
         conn.execute(table.delete())
     return len(running)
 

@@ -1,14 +1,15 @@
 /** The whole page: its look, its data, its addresses. */
 import { MantineProvider } from '@mantine/core';
-import { QueryClient, QueryClientProvider } from '@tanstack/react-query';
+import { MutationCache, QueryCache, QueryClient, QueryClientProvider } from '@tanstack/react-query';
 import { RouterProvider } from '@tanstack/react-router';
 import { useState } from 'react';
 import type { AppRouter } from '@/app/router';
 import { cssVariables, theme } from '@/app/theme';
 import { Toasts } from '@/components/toasts';
+import { isSignedOut } from '@/lib/access';
 
 export function App({ router }: { router: AppRouter }) {
-  const [queries] = useState(makeQueryClient);
+  const [queries] = useState(() => makeQueryClient((error) => askToSignIn(router, error)));
   return (
     <MantineProvider theme={theme} cssVariablesResolver={cssVariables} defaultColorScheme="auto">
       <QueryClientProvider client={queries}>
@@ -20,8 +21,17 @@ export function App({ router }: { router: AppRouter }) {
   );
 }
 
-function makeQueryClient(): QueryClient {
+/** When the server does not know who asks, lead to where that can be said, and back afterwards. */
+function askToSignIn(router: AppRouter, error: unknown): void {
+  const { href, pathname } = router.state.location;
+  if (!isSignedOut(error) || pathname === '/sign-in' || pathname === '/welcome') return;
+  void router.navigate({ to: '/sign-in', search: { from: href } });
+}
+
+function makeQueryClient(onError: (error: unknown) => void): QueryClient {
   return new QueryClient({
+    queryCache: new QueryCache({ onError }),
+    mutationCache: new MutationCache({ onError }),
     defaultOptions: {
       // The server may run on this very machine, so it is asked even when the browser believes to be offline.
       queries: { retry: false, networkMode: 'always', staleTime: 1_000 },

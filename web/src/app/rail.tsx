@@ -5,7 +5,7 @@ import { SchemeSwitch } from '@/app/scheme-switch';
 import { Icon, type IconName } from '@/components/icon';
 import classes from './shell.module.css';
 
-type Place = '/' | '/launch' | '/studies' | '/compare' | '/queue' | '/workers';
+type Place = '/' | '/launch' | '/studies' | '/compare' | '/queue' | '/workers' | '/settings';
 
 const PLACES: readonly { to: Place; label: string; icon: IconName }[] = [
   { to: '/', label: 'Runs', icon: 'runs' },
@@ -14,6 +14,7 @@ const PLACES: readonly { to: Place; label: string; icon: IconName }[] = [
   { to: '/compare', label: 'Compare', icon: 'chart' },
   { to: '/queue', label: 'Queue', icon: 'queue' },
   { to: '/workers', label: 'Workers', icon: 'workers' },
+  { to: '/settings', label: 'Settings', icon: 'settings' },
 ];
 
 export function Rail({ isNarrow, onToggle }: { isNarrow: boolean; onToggle: () => void }) {
@@ -40,6 +41,12 @@ export function Rail({ isNarrow, onToggle }: { isNarrow: boolean; onToggle: () =
         ))}
       </div>
       <div className={classes.foot}>
+        <Tooltip label="Account" position="right" disabled={!isNarrow}>
+          <Link to="/account" className={classes.place} activeProps={{ 'aria-current': 'page' }} aria-label="Account">
+            <Icon name="person" size={17} />
+            <span className={classes.label}>Account</span>
+          </Link>
+        </Tooltip>
         <SchemeSwitch />
         <button
           type="button"

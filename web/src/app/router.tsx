@@ -9,16 +9,17 @@ import {
   stringifySearchWith,
 } from '@tanstack/react-router';
 import { PageBroke, PageNotFound } from '@/app/failures';
-import { Shell } from '@/app/shell';
+import { Frame } from '@/app/frame';
 import { readCompareSearch, readConfigsSearch } from '@/features/compare/search';
 import { readLaunchSearch } from '@/features/launch/search';
 import { readNewStudySearch } from '@/features/new-study/search';
 import { readRunSearch } from '@/features/run/search';
 import { readRunsSearch } from '@/features/runs/search';
+import { readSignInSearch } from '@/features/sign-in/search';
 import { readStudiesSearch } from '@/features/studies/search';
 import { readStudySearch } from '@/features/study/search';
 
-const root = createRootRoute({ component: Shell });
+const root = createRootRoute({ component: Frame });
 
 const runs = createRoute({
   getParentRoute: () => root,
@@ -74,6 +75,12 @@ const workers = createRoute({
   component: lazyRouteComponent(() => import('@/features/workers/workers-page'), 'WorkersPage'),
 });
 
+const settings = createRoute({
+  getParentRoute: () => root,
+  path: '/settings',
+  component: lazyRouteComponent(() => import('@/features/settings/settings-page'), 'SettingsPage'),
+});
+
 const compare = createRoute({
   getParentRoute: () => root,
   path: '/compare',
@@ -88,10 +95,51 @@ const configs = createRoute({
   component: lazyRouteComponent(() => import('@/features/compare/configs-page'), 'ConfigsPage'),
 });
 
+const signIn = createRoute({
+  getParentRoute: () => root,
+  path: '/sign-in',
+  validateSearch: readSignInSearch,
+  component: lazyRouteComponent(() => import('@/features/sign-in/sign-in-page'), 'SignInPage'),
+});
+
+const welcome = createRoute({
+  getParentRoute: () => root,
+  path: '/welcome',
+  component: lazyRouteComponent(() => import('@/features/welcome/welcome-page'), 'WelcomePage'),
+});
+
+const account = createRoute({
+  getParentRoute: () => root,
+  path: '/account',
+  component: lazyRouteComponent(() => import('@/features/account/account-page'), 'AccountPage'),
+});
+
+const accounts = createRoute({
+  getParentRoute: () => root,
+  path: '/accounts',
+  component: lazyRouteComponent(() => import('@/features/accounts/accounts-page'), 'AccountsPage'),
+});
+
+/** What is there for people who come in, and for those who decide who may. */
+const access = [signIn, welcome, account, accounts] as const;
+
 /** Make the router; a test hands in a history of its own. */
 export function makeRouter(history?: RouterHistory) {
   return createRouter({
-    routeTree: root.addChildren([runs, launch, run, studies, newStudy, study, compare, configs, queue, workers]),
+    routeTree: root.addChildren([
+      runs,
+      launch,
+      run,
+      studies,
+      newStudy,
+      study,
+      compare,
+      configs,
+      queue,
+      workers,
+      settings,
+      ...access,
+    ]),
     history,
     defaultNotFoundComponent: PageNotFound,
     defaultErrorComponent: PageBroke,

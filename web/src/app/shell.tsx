@@ -2,6 +2,7 @@
 import { useLocalStorage } from '@mantine/hooks';
 import { Outlet } from '@tanstack/react-router';
 import { ConnectionBanner } from '@/app/connection-banner';
+import { Notices } from '@/app/notices';
 import { Rail } from '@/app/rail';
 import classes from './shell.module.css';
 
@@ -19,6 +20,7 @@ export function Shell() {
       <Rail isNarrow={isNarrow} onToggle={() => setNarrow(!isNarrow)} />
       <div className={classes.content}>
         <ConnectionBanner />
+        <Notices />
         <main id="main" tabIndex={-1} className={classes.main}>
           <Outlet />
         </main>

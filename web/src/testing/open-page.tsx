@@ -7,10 +7,14 @@ import { makeRouter } from '@/app/router';
 import { FakeServer } from '@/testing/fake-server';
 import { CHOICES, DEFAULTS, TEMPLATE } from '@/testing/samples';
 
+/** Whoever came with the token of a server on loopback. */
+const LOCAL = { name: 'local', role: 'admin', has_account: false };
+
 /** A server that knows the choices, one living worker, and no runs. */
 export function startServer(): FakeServer {
   return new FakeServer()
     .on('GET /healthz', () => ({ body: { status: 'ok', version: '0', workers_alive: 1, viewer_alive: true } }))
+    .on('GET /api/auth/me', () => ({ body: { mode: 'token', caller: LOCAL, message: null } }))
     .on('GET /api/choices', () => ({ body: CHOICES }))
     .on('GET /api/defaults', () => ({ body: DEFAULTS }))
     .on('GET /api/study-files/sample', () => ({ body: { size: null } }))

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Iterator, Sequence
-from contextlib import closing, contextmanager
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
-from tempfile import TemporaryDirectory
-from typing import Annotated, Literal, cast
+from typing import Annotated, Any, Literal, cast
 
 import tyro
 
@@ -20,20 +19,25 @@ from backend.figures.csv_tables import best_csv, curves_csv
 from backend.figures.drawing import Drawing, Format, draw_apart
 from backend.figures.latex import best_latex, curves_latex
 from backend.figures.styles import Width
-from backend.samples import sample_study
 from backend.store.compared_runs import RunChoice, find_compared_runs, read_configs
 from backend.store.database import Database, open_database
 from backend.store.runs import get_runs
-from backend.store.settings import Settings, load_settings, sqlite_url
+from backend.store.settings import load_settings
 from backend.store.study_files.packing import pack_study
-from backend.store.study_files.placing import import_study
 from sldr_core.config import Phase
-from sldr_core.errors import BadFile, InvalidConfig, UnknownName
+from sldr_core.errors import InvalidConfig, UnknownName
+from worker.cli.commands.export_from_server import (
+    fetch_bundle,
+    fetch_exported,
+    fetch_figure,
+    fetch_recording,
+    find_named_server,
+)
 from worker.cli.commands.export_rerun import export_rerun
+from worker.cli.service import Server
+from worker.cli.study_source import open_source
 from worker.exports.exported_run import ExportedRun, load_exported
 
-SAMPLE = "sample"
-"""Stands for the study file that comes with the product."""
 FIGURES = ("svg", "pdf", "png", "csv", "tex")
 Many = tyro.conf.UseAppendAction[tuple[str, ...]]
 
@@ -55,11 +59,18 @@ class Chosen:
     phase: Phase = "manipulation"
     """Which training."""
     study_file: Annotated[Path | None, tyro.conf.arg(metavar="FILE", help_behavior_hint="")] = None
-    """Take the runs of this study file instead of the store's; "sample" is the one that comes with the product."""
+    """Take the runs of this study file instead; "sample" is the one that comes with the product."""
+    server: Server = None
+    """The service that has them, as http://127.0.0.1:8000 (default: SLDR_URL, else the store of this machine)."""
 
     def choice(self) -> RunChoice:
         """Return the choice as the store takes it."""
         return RunChoice(self.phase, self.task, self.method, self.preset, self.run, self.study)
+
+    def question(self) -> dict[str, Any]:
+        """Return the choice as a service takes it."""
+        names = {"task": self.task, "method": self.method, "preset": self.preset, "run": self.run}
+        return {"phase": self.phase, "study": self.study, **{name: list(given) for name, given in names.items()}}
 
 
 @dataclass(frozen=True)
@@ -85,23 +96,11 @@ class Shown:
             raise InvalidConfig({"level": f"it must lie between 0.5 and 0.999, got {self.level}"})
         return CurveView(self.metric, self.x, self.statistic, self.level, self.seeds)
 
-
-@contextmanager
-def _opened(chosen: Chosen) -> Generator[Database]:
-    """Lend the store, or one that holds nothing but a study file, for as long as the block lasts."""
-    if chosen.study_file is None:
-        with closing(open_database(load_settings())) as db:
-            yield db
-        return
-    source = sample_study() if str(chosen.study_file) == SAMPLE else chosen.study_file
-    if source is None or not source.is_file():
-        raise BadFile(f"There is no study file {chosen.study_file}; give one that `sldr export study` has written.")
-    with TemporaryDirectory(prefix="sldr-study-") as name:
-        home = Path(name)
-        settings = Settings(home=home, database_url=sqlite_url(home))
-        with closing(open_database(settings)) as db:
-            import_study(db, settings, source, str(source))
-            yield db
+    def question(self) -> dict[str, Any]:
+        """Return the view as a service takes it."""
+        view = self.view()
+        of_curves = {"metric": view.metric, "x": view.x, "statistic": view.statistic, "seeds": view.with_seeds}
+        return {"level": view.level, "width": self.width, **of_curves}
 
 
 Runs = tyro.conf.OmitArgPrefixes[Chosen]
@@ -110,7 +109,8 @@ View = tyro.conf.OmitArgPrefixes[Shown]
 
 def main(arguments: Sequence[str]) -> int:
     """Run the command; `--rerun RUN OUT` and `--study ID OUT` may be written with dashes, too."""
-    given = [arguments[0][2:], *arguments[1:]] if arguments[:1] in (["--rerun"], ["--study"]) else list(arguments)
+    is_dashed = arguments[:1] in (["--rerun"], ["--study"])
+    given = [arguments[0].lstrip("-"), *arguments[1:]] if is_dashed else list(arguments)
     kinds: dict[str, Callable[..., int]] = {
         "figure": figure,
         "bundle": bundle,
@@ -134,7 +134,11 @@ def figure(out: Path, runs: Runs, view: View, kind: Literal["curves", "best"] = 
     form = out.suffix.removeprefix(".")
     if form not in FIGURES:
         raise UnknownName("kind of figure", form, FIGURES)
-    with _opened(runs) as db:
+    if runs.study_file is None and (server := find_named_server(runs.server)) is not None:
+        _check_place(out)
+        fetch_figure(server, out, kind, runs.question() | view.question())
+        return _tell(out)
+    with open_source(runs.study_file) as db:
         memory = ComparisonMemory()
         compare = compare_curves if kind == "curves" else compare_best
         content = compare(db, memory, runs.choice(), view.view())
@@ -150,7 +154,11 @@ def bundle(out: Path, runs: Runs, view: View, anonymous: bool = False) -> int:
         view: How they are shown.
         anonymous: Leave out what tells who made it, and where.
     """
-    with _opened(runs) as db:
+    if runs.study_file is None and (server := find_named_server(runs.server)) is not None:
+        _check_place(out)
+        fetch_bundle(server, out, anonymous, runs.question() | view.question())
+        return _tell(out)
+    with open_source(runs.study_file) as db:
         memory, choice, shown = ComparisonMemory(), runs.choice(), view.view()
         curves = compare_curves(db, memory, choice, shown)
         best = compare_best(db, memory, choice, shown)
@@ -166,7 +174,7 @@ def study(study: tyro.conf.Positional[str], out: tyro.conf.Positional[Path]) -> 
         study: The id of the study.
         out: The .zip file to write.
     """
-    _check_directory(out)
+    _check_place(out)
     settings = load_settings()
     with closing(open_database(settings)) as db:
         packed = pack_study(db, settings, study, out)
@@ -175,13 +183,18 @@ def study(study: tyro.conf.Positional[str], out: tyro.conf.Positional[Path]) -> 
     return 0
 
 
-def rerun(run: tyro.conf.Positional[str], out: tyro.conf.Positional[Path]) -> int:
+def rerun(run: tyro.conf.Positional[str], out: tyro.conf.Positional[Path], server: Server = None) -> int:
     """Make the Rerun file of a run again from the store: its curves, episodes and log.
 
     Args:
         run: The id of the run.
         out: The .rrd file to write.
+        server: The service whose newest Rerun file of the run is copied instead (default: SLDR_URL, else the store).
     """
+    if (named := find_named_server(server)) is not None:
+        _check_place(out)
+        fetch_recording(named, run, out)
+        return _tell(out)
     return export_rerun(run, out)
 
 
@@ -215,7 +228,10 @@ def mlflow(uri: Annotated[str, tyro.conf.arg(metavar="URI")], runs: Runs) -> int
 
 
 def _exported(runs: Chosen) -> Iterator[ExportedRun]:
-    with _opened(runs) as db:
+    if runs.study_file is None and (server := find_named_server(runs.server)) is not None:
+        yield from fetch_exported(server, runs.question())
+        return
+    with open_source(runs.study_file) as db:
         for row in get_runs(db, _ids(db, runs)):
             yield load_exported(db, row)
 
@@ -237,13 +253,17 @@ def _figure_file(content: CurveComparison | BestModels, form: str, width: Width)
     return drawn
 
 
-def _check_directory(out: Path) -> None:
+def _write(out: Path, content: bytes) -> int:
+    _check_place(out)
+    out.write_bytes(content)
+    return _tell(out)
+
+
+def _check_place(out: Path) -> None:
     if not out.absolute().parent.is_dir():
         raise InvalidConfig({"out": f"there is no directory {out.absolute().parent}; make it first"})
 
 
-def _write(out: Path, content: bytes) -> int:
-    _check_directory(out)
-    out.write_bytes(content)
+def _tell(out: Path) -> int:
     print(out)
     return 0

@@ -5,17 +5,13 @@ from __future__ import annotations
 import dataclasses
 import json as json_format
 from collections.abc import Sequence
-from contextlib import closing
-from typing import Any
+from typing import Any, get_args
 
 import tyro
 
-from backend.store.database import open_database
-from backend.store.runs import RunFilter, RunRow, list_runs
-from backend.store.settings import load_settings
-from backend.store.states import RunState
-from sldr_core.config import Phase
+from backend.client.records.runs import Phase, Run, State
 from sldr_core.errors import InvalidConfig, UnknownName
+from worker.cli.service import Server, Wanted, open_service
 
 MOST_ROWS = 10_000
 """Runs listed at once at most."""
@@ -35,6 +31,7 @@ def show(
     search: str | None = None,
     limit: int = 20,
     json: bool = False,
+    server: Server = None,
 ) -> int:
     """List runs, the newest first.
 
@@ -46,30 +43,25 @@ def show(
         search: Words that task, method, phase, preset or state hold, or the beginning of an id.
         limit: How many to list.
         json: Print everything known about each, for programs.
+        server: The service to ask, as http://127.0.0.1:8000 (default: SLDR_URL, else what runs here, else the store).
     """
     if not 1 <= limit <= MOST_ROWS:
         raise InvalidConfig({"limit": f"it must be between 1 and {MOST_ROWS}, got {limit}"})
-    if state is not None and state not in list(RunState):
-        raise UnknownName("state", state, list(RunState))
-    wanted = RunFilter(
-        states=[RunState(state)] if state else (),
-        tasks=[task] if task else (),
-        methods=[method] if method else (),
-        phases=[phase] if phase else (),
-        search=search,
-    )
-    with closing(open_database(load_settings())) as db:
-        found = list_runs(db, wanted, limit)
-    if json:
-        print(json_format.dumps([dataclasses.asdict(row) for row in found.rows], indent=2, default=str))
-        return 0
-    print("\n".join(_as_lines(found.rows)))
+    if state is not None and state not in get_args(State):
+        raise UnknownName("state", state, get_args(State))
+    with open_service(server) as service:
+        found = service.list_runs(Wanted(state, task, method, phase, search), limit)
+        if json:
+            details = [dataclasses.asdict(service.get_run(run.id)) for run in found.runs]
+            print(json_format.dumps(details, indent=2, default=str))
+            return 0
+    print("\n".join(_as_lines(found.runs)))
     if found.next_cursor is not None:
-        print(f"{len(found.rows)} of {found.total} runs; --limit shows more.")
+        print(f"{len(found.runs)} of {found.total} runs; --limit shows more.")
     return 0
 
 
-def _as_lines(rows: Sequence[RunRow]) -> list[str]:
+def _as_lines(rows: Sequence[Run]) -> list[str]:
     if not rows:
         return ["No run matches."]
     cells: list[tuple[Any, ...]] = [HEAD, *(_cells(row) for row in rows)]
@@ -77,7 +69,7 @@ def _as_lines(rows: Sequence[RunRow]) -> list[str]:
     return ["  ".join(f"{cell!s:{width}}" for cell, width in zip(line, widths, strict=True)).rstrip() for line in cells]
 
 
-def _cells(row: RunRow) -> tuple[Any, ...]:
+def _cells(row: Run) -> tuple[Any, ...]:
     done, best = (row.progress.fraction, row.progress.best_success_rate) if row.progress else (0.0, None)
     told = (f"{done:.0%}", "-" if best is None else f"{best:.1%}")
     return row.id, row.state, row.task, row.phase, row.method, row.seed, row.preset, *told

@@ -9,10 +9,11 @@ import sys
 import time
 import urllib.error
 import urllib.request
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import tyro
 
+from backend.store.access.entry import choose_mode, greet
 from backend.store.engines import open_engine, parse_address
 from backend.store.settings import load_settings
 from backend.store.storage import FileStorage
@@ -41,13 +42,14 @@ def main(arguments: Sequence[str]) -> int:
     return tyro.cli(serve, prog="sldr serve", args=list(arguments))
 
 
-def serve(host: str = "127.0.0.1", port: int = 8000, workers: int = 1) -> int:
+def serve(host: str = "127.0.0.1", port: int = 8000, workers: int = 1, accounts: bool = False) -> int:
     """Serve the page in the browser, with a worker and the 3D viewer, until told to end.
 
     Args:
-        host: Address to listen on. There is no login: open others to your own network only.
+        host: Address to listen on. On any but this machine's own, people sign in with accounts.
         port: Port to listen on.
         workers: Runs trained at the same time on this machine (0: none).
+        accounts: Ask for accounts on 127.0.0.1 too, behind a proxy for example.
     """
     if workers < 0:
         raise InvalidConfig({"workers": f"it must be 0 or more, got {workers}"})
@@ -58,17 +60,22 @@ def serve(host: str = "127.0.0.1", port: int = 8000, workers: int = 1) -> int:
     FileStorage(settings)
     environment = {**os.environ, **settings.as_environment()}
     commands = {
-        "API": ["backend.api", "--host", host, "--port", str(port)],
+        "API": ["backend.api", "--host", host, "--port", str(port), *(["--accounts"] if accounts else [])],
         "worker": ["worker", "--slots", str(workers)],
         "viewer": ["worker.viewer"],
     }
     if not workers:
         del commands["worker"]
     children = {name: Child(name, [sys.executable, "-m", *command], environment) for name, command in commands.items()}
-    return keep(children, _address(host, port), f"Data: {settings.home}. Ctrl-C ends it.")
+    address = _address(host, port)
+
+    def greeting() -> str:
+        return f"{greet(settings, address, choose_mode(host, accounts))}  Data: {settings.home}. Ctrl-C ends it."
+
+    return keep(children, address, greeting)
 
 
-def keep(children: dict[str, Child], address: str, note: str) -> int:
+def keep(children: dict[str, Child], address: str, greeting: Callable[[], str]) -> int:
     """Keep the children alive until SIGINT or SIGTERM, then end them all; say when the API answers."""
     ended_by: list[int] = []
     for number in (signal.SIGINT, signal.SIGTERM):
@@ -79,7 +86,7 @@ def keep(children: dict[str, Child], address: str, note: str) -> int:
             for child in children.values():
                 child.keep_alive(_tell)
             if not answered and (answered := _answers(address)):
-                print(f"SLDR is at {address}  {note}", flush=True)
+                print(greeting(), flush=True)
             if not answered and children["API"].deaths_in_youth >= MOST_DEATHS:
                 raise CannotServe(f"The API ended {MOST_DEATHS} times before it answered; its last words are above.")
             time.sleep(LOOK_INTERVAL_S)

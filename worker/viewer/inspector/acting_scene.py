@@ -16,7 +16,8 @@ from sldr_core.config import StackScene, TaskSpec
 from sldr_core.demonstrations.placing import joint_pose
 from sldr_core.envs.scenes.hand import OBJECT
 from sldr_core.envs.scenes.stack import build_stack
-from worker.viewer.scene import Kinematics, Poses, SceneView
+from worker.viewer.scene import SceneView
+from worker.viewer.skeleton import Kinematics, Poses
 from worker.viewer.tracks import goal_positions
 
 Array = NDArray[np.float64]
@@ -58,12 +59,11 @@ class ActingScene:
 
     def poses(self, qpos: Array) -> Poses:
         """Return where every body of the scene is, from joint positions `[P, nq]` of the acting one."""
-        if not self._stack:
-            return self._kinematics.poses(qpos[0])
-        whole = self.model.qpos0.copy()
-        for index in range(self._stack):
-            whole[joint_pose(self.model, index)] = qpos[index, joint_pose(self._acting, 0)]
-        return self._kinematics.poses(whole)
+        return self._kinematics.poses(self._whole(qpos))
+
+    def poses_between(self, qpos: Array, later: Array, share: float) -> Poses:
+        """Return where every body of the scene is, a share of the way between joint positions `[P, nq]`."""
+        return self._kinematics.poses_between(self._whole(qpos), self._whole(later), share)
 
     def pulled_bodies(self) -> list[int]:
         """Return the bodies that act: of a chain its two ends, else every object."""
@@ -78,3 +78,12 @@ class ActingScene:
         with self._server.atomic():
             self._view.show(poses)
             self._view.show_goals(goal_positions(self._task, moment.goal), bool(moment.reached.all()))
+
+    def _whole(self, qpos: Array) -> Array:
+        """Return the joint positions of the scene `[nq]`, from those of the acting one `[P, nq]`."""
+        if not self._stack:
+            return qpos[0]
+        whole = self.model.qpos0.copy()
+        for index in range(self._stack):
+            whole[joint_pose(self.model, index)] = qpos[index, joint_pose(self._acting, 0)]
+        return whole

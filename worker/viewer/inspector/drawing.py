@@ -62,14 +62,13 @@ class Drawing:
         shown = self._inspection.demonstration
         later = min(step + 1, shown.steps)
         now = Moment(shown.qpos[:, step], shown.start.goal, shown.reached[:, step])
-        poses = self._scene.poses(now.qpos)
-        between = poses.towards(self._scene.poses(shown.qpos[:, later]), share) if share > 0.0 else poses
+        between = self._scene.poses_between(now.qpos, shown.qpos[:, later], share)
         with self._server.atomic():
             self._scene.show(between, now)
             if looks.arrows:
                 bodies = self._scene.pulled_bodies()
                 action = shown.action[:, min(step, shown.steps - 1)].ravel()
-                self._arrows.show(action, between.pos[bodies], poses.quat[bodies])
+                self._arrows.show(action, between.pos[bodies], between.quat[bodies])
             else:
                 self._arrows.hide()
 

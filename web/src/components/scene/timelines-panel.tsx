@@ -30,6 +30,9 @@ export function TimelinesPanel({ scene }: { scene: Scene }) {
           </Button>
         )}
       </div>
+      {!charts.some(({ group }) => group === 'value') && (
+        <p className="faint">There is no curve of Q: a live policy comes without critics. Recorded episodes have it.</p>
+      )}
       {charts.map((chart) => (
         <TimelineChartView
           key={chart.group}

@@ -3,7 +3,9 @@ import { Button } from '@mantine/core';
 import type { LaunchPlan, PlannedRun } from '@/client/schema.gen';
 import { AnchorLink } from '@/components/anchor-link';
 import { Icon } from '@/components/icon';
+import { WaysIn } from '@/components/ways-in';
 import { formatPlural, formatShare } from '@/lib/format';
+import { launchCommand, launchScript } from '@/lib/ways-in';
 import type { LaunchForm } from '../use-launch-form';
 import classes from './launch.module.css';
 
@@ -50,6 +52,12 @@ export function LaunchPlanPanel({ form, problems, fieldProblems, isLaunching }: 
       >
         {added === undefined ? 'Launch' : added === 0 ? 'Open what exists' : `Launch ${formatPlural(added, 'run')}`}
       </Button>
+      {form.launch && (
+        <WaysIn
+          command={launchCommand(form.launch, window.location.origin)}
+          script={launchScript(form.launch, window.location.origin)}
+        />
+      )}
     </aside>
   );
 }

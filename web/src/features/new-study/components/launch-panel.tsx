@@ -1,8 +1,10 @@
 /** What this study would queue, reuse and cost; its name; and the button that launches it. */
 import { Button, TextInput } from '@mantine/core';
 import { PreviewSums } from '@/components/preview-sums';
+import { WaysIn } from '@/components/ways-in';
 import { Refused, sentence } from '@/lib/api';
 import { formatPlural } from '@/lib/format';
+import { studyCommand, studyScript } from '@/lib/ways-in';
 import type { StudyDraft } from '../use-draft';
 import classes from './builder.module.css';
 
@@ -48,6 +50,12 @@ export function LaunchPanel({ form, refusal, isLaunching, onName }: Props) {
             ? 'Gather what exists'
             : `Launch ${formatPlural(preview.queued, 'run')}`}
       </Button>
+      {form.spec && (
+        <WaysIn
+          command={studyCommand(form.name, form.spec, window.location.origin)}
+          script={studyScript(form.name, form.spec, window.location.origin)}
+        />
+      )}
     </aside>
   );
 }

@@ -1,0 +1,58 @@
+/** Notifications of the browser: asked for by the person, shown once for each thing that has happened. */
+import { useLocalStorage } from '@mantine/hooks';
+import { useQuery } from '@tanstack/react-query';
+import { useEffect, useRef } from 'react';
+import { client, unwrap } from '@/lib/api';
+import { noticeKey, untold } from '@/lib/notices';
+
+/** How often it is asked what has happened [ms]. */
+const POLL_MS = 15_000;
+/** A thing may be written down a little after it has happened, so each question looks back a little [ms]. */
+const OVERLAP_MS = 60_000;
+const WANTED_KEY = 'sldr-desktop-notices';
+
+/** Whether this browser can show notifications at all. */
+export function canNotify(): boolean {
+  return typeof Notification !== 'undefined' && window.isSecureContext !== false;
+}
+
+/** Whether the person wants them in this browser. */
+export function useNoticesWanted(): [boolean, (wanted: boolean) => void] {
+  const [isWanted, want] = useLocalStorage({
+    key: WANTED_KEY,
+    defaultValue: false,
+    getInitialValueInEffect: false,
+  });
+  return [isWanted, want];
+}
+
+/** Show what happens from now on, if the person wants it; `open` leads to what it is about. */
+export function useDesktopNotices(open: (path: string) => void): void {
+  const [isWanted] = useNoticesWanted();
+  const begun = useRef(new Date().toISOString());
+  const since = useRef(begun.current);
+  const told = useRef(new Set<string>());
+  const opening = useRef(open);
+  opening.current = open;
+  const isOn = isWanted && canNotify() && Notification.permission === 'granted';
+  const { data } = useQuery({
+    queryKey: ['notices'],
+    queryFn: ({ signal }) =>
+      unwrap(client.GET('/api/notices', { params: { query: { since: since.current } }, signal })),
+    enabled: isOn,
+    refetchInterval: POLL_MS,
+    refetchIntervalInBackground: true,
+  });
+  useEffect(() => {
+    if (data === undefined) return;
+    const lookBack = new Date(new Date(data.now).getTime() - OVERLAP_MS).toISOString();
+    since.current = lookBack > begun.current ? lookBack : begun.current;
+    for (const notice of untold(data.notices, told.current)) {
+      const shown = new Notification('SLDR', { body: notice.message, tag: noticeKey(notice) });
+      shown.onclick = () => {
+        window.focus();
+        opening.current(notice.path);
+      };
+    }
+  }, [data]);
+}

@@ -1,0 +1,89 @@
+/** Make room: choose what ended runs may lose, see what that frees, remove it. */
+import { Button, Checkbox, Modal, NumberInput } from '@mantine/core';
+import { useDebouncedValue, useDisclosure } from '@mantine/hooks';
+import { useQuery } from '@tanstack/react-query';
+import { useState } from 'react';
+import type { Removable } from '@/client/schema.gen';
+import { useToast } from '@/components/toasts';
+import { sentence } from '@/lib/api';
+import { formatPlural, formatSize } from '@/lib/format';
+import { retentionQuery, useApplyRetention } from '../api/retention';
+import { KINDS } from '../kinds';
+import { RetentionPreviewTable } from './retention-preview';
+import classes from './settings.module.css';
+
+/** Rest after the last change before the preview is asked for [ms]. */
+const REST_MS = 250;
+/** Days that a rule may spare runs for. */
+const LONGEST_DAYS = 3650;
+
+export function RetentionSection() {
+  const [kinds, setKinds] = useState<Removable[]>(['replay']);
+  const [days, setDays] = useState<number>(30);
+  const [rule] = useDebouncedValue({ kinds, older_than_days: days }, REST_MS);
+  const { data: preview, error, isPlaceholderData } = useQuery(retentionQuery(rule));
+  const applying = useApplyRetention();
+  const toast = useToast();
+  const [isAsking, asking] = useDisclosure(false);
+  const isFresh = rule.older_than_days === days && rule.kinds === kinds && !isPlaceholderData;
+  const remove = (): void =>
+    applying.mutate(rule, {
+      onSuccess: ({ files, runs, size }) =>
+        toast({ text: `Removed ${formatPlural(files, 'file')} of ${formatPlural(runs, 'run')}: ${formatSize(size)}.` }),
+      onError: (failure) => toast({ text: sentence(failure), isProblem: true }),
+      onSettled: asking.close,
+    });
+  return (
+    <section className={`card ${classes.section}`} aria-labelledby="retention">
+      <h2 id="retention">Make room</h2>
+      <p className="faint">
+        Results stay: metrics, logs, newest and best policies, locomotion models. Runs tagged <code>keep</code> or{' '}
+        <code>starred</code> and runs that others learn from lose nothing.
+      </p>
+      <fieldset className={classes.kinds}>
+        <legend className="hidden">What may go</legend>
+        {KINDS.map(({ kind, label, summary }) => (
+          <Checkbox
+            key={kind}
+            label={label}
+            description={summary}
+            checked={kinds.includes(kind)}
+            onChange={({ currentTarget: { checked } }) =>
+              setKinds((others) => (checked ? [...others, kind] : others.filter((other) => other !== kind)))
+            }
+          />
+        ))}
+      </fieldset>
+      <NumberInput
+        label="Only of runs that ended at least so many days ago"
+        w={220}
+        min={0}
+        max={LONGEST_DAYS}
+        allowDecimal={false}
+        value={days}
+        onChange={(value) => setDays(Number(value) || 0)}
+      />
+      {error && <p className="problem">{sentence(error)}</p>}
+      {kinds.length > 0 && preview && <RetentionPreviewTable preview={preview} days={rule.older_than_days} />}
+      <div>
+        <Button color="red" disabled={!preview?.total_runs || kinds.length === 0 || !isFresh} onClick={asking.open}>
+          Remove …
+        </Button>
+      </div>
+      <Modal opened={isAsking} onClose={asking.close} title="Remove these files?">
+        <p>
+          {preview &&
+            `${formatSize(preview.size)} of ${formatPlural(preview.total_runs, 'run')} will be gone for good.`}
+        </p>
+        <div className={classes.row}>
+          <Button color="red" loading={applying.isPending} onClick={remove}>
+            Remove them
+          </Button>
+          <Button variant="default" onClick={asking.close}>
+            Keep them
+          </Button>
+        </div>
+      </Modal>
+    </section>
+  );
+}

@@ -1,0 +1,21 @@
+/** How one hears of what has happened, and how room is made on the disk. */
+import { DesktopNotices } from './components/desktop-notices';
+import { RetentionSection } from './components/retention-section';
+import classes from './components/settings.module.css';
+import { WebhooksSection } from './components/webhooks-section';
+
+export function SettingsPage() {
+  return (
+    <>
+      <title>Settings · SLDR</title>
+      <div className="page-head">
+        <h1>Settings</h1>
+      </div>
+      <div className={classes.sections}>
+        <DesktopNotices />
+        <WebhooksSection />
+        <RetentionSection />
+      </div>
+    </>
+  );
+}

@@ -1,0 +1,88 @@
+"""What the service works on: its data directory, its store, shared files, and the workers that the store knows."""
+
+from __future__ import annotations
+
+import os
+import stat
+import tempfile
+from pathlib import Path
+
+from backend.client.access import TOKEN_FILE
+from backend.store.database import Database
+from backend.store.engines import parse_address
+from backend.store.errors import StoreUnavailable
+from backend.store.inspection import StoreState, inspect_store
+from backend.store.settings import Settings
+from backend.store.storage import FileStorage
+from backend.store.workers import list_workers
+from sldr_core.errors import SldrError
+from worker.doctor.finding import Finding, ok, poor, wrong
+
+
+def look_at_home(home: Path) -> Finding:
+    """Write a file where the data lies."""
+    try:
+        home.mkdir(parents=True, exist_ok=True)
+        with tempfile.NamedTemporaryFile(dir=home):
+            pass
+    except OSError as err:
+        mend = "make it writable for this user, or let SLDR_HOME name another directory."
+        return wrong("data", f"{home} cannot be written ({err.strerror}).", mend)
+    token = home / TOKEN_FILE
+    if token.exists() and stat.S_IMODE(token.stat().st_mode) & 0o077:
+        return wrong("data", f"Others may read {token}, which opens the service.", f"chmod 600 {token}")
+    return ok("data", f"{home} can be written.")
+
+
+def look_at_store(settings: Settings) -> Finding:
+    """Reach the store and compare its tables with what this version expects; nothing is changed."""
+    try:
+        state = inspect_store(settings)
+    except (SldrError, StoreUnavailable) as err:
+        mend = "see that the database runs and that SLDR_DATABASE_URL names it."
+        return wrong("store", str(err), mend)
+    return describe_store(state, _shown(settings))
+
+
+def describe_store(state: StoreState, address: str) -> Finding:
+    """Say what the tables' revision means."""
+    if state.revision is None:
+        return ok("store", f"{address} is empty; its tables are made when the service starts.")
+    if state.revision == state.expected:
+        return ok("store", f"{address} answers; its tables are of revision {state.revision}.")
+    if state.revision < state.expected:
+        told = f"{address} is of revision {state.revision}, brought to {state.expected} when the service starts."
+        return poor("store", told, "make a backup first: `sldr backup FILE.tar`.")
+    told = f"{address} is of revision {state.revision}, and this version knows {state.expected}."
+    return wrong("store", told, "start the newer version that has used it, or restore a backup made before.")
+
+
+def look_at_files(settings: Settings) -> Finding:
+    """Reach the place that several machines share files through, if there is one."""
+    if settings.files_url is None:
+        return ok("files", "Files lie in the data directory; several machines would need SLDR_FILES_URL.")
+    try:
+        shared = FileStorage(settings).shared
+        assert shared is not None
+        probe = f".doctor-{os.getpid()}"
+        shared.put_bytes(b"", probe)
+        shared.remove(probe)
+    except (SldrError, StoreUnavailable) as err:
+        return wrong("files", str(err), "see that SLDR_FILES_URL names a place that this machine may write.")
+    return ok("files", f"The shared place {settings.files_url} can be written.")
+
+
+def look_at_workers(db: Database) -> Finding:
+    """See whether anything would be trained."""
+    alive = [worker for worker in list_workers(db) if worker.alive]
+    if not alive:
+        return poor(
+            "workers", "No worker is alive, so nothing is trained.", "start one: `sldr serve`, or `sldr worker`."
+        )
+    slots = sum(worker.slots for worker in alive)
+    return ok("workers", f"{len(alive)} alive, for {slots} runs at once.")
+
+
+def _shown(settings: Settings) -> str:
+    """Return the store's address without its password."""
+    return parse_address(settings.database_url).render_as_string(hide_password=True)
