@@ -2,32 +2,44 @@
 
 from __future__ import annotations
 
+from contextlib import closing
 from pathlib import Path
 
+import httpx
 import pytest
-from starlette.testclient import TestClient
-from study_file_cases import members_of
+from live_api import Service
+from store_engines import SqliteStores
+from study_file_cases import members_of, trained_study
 
-from backend.api.app import create_app
 from backend.api.routes import study_files
 from backend.samples import SAMPLE_VARIABLE, SHIPPED
+from backend.store.database import open_database
 from backend.store.settings import Settings
+from backend.store.study_files.packing import pack_study
 
 LARGEST_SAMPLE = 15_000_000
 """What the sample study may take [bytes]."""
 
 
+@pytest.fixture(scope="module")
+def exported(sqlite_stores: SqliteStores, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a study file of a study that was trained elsewhere."""
+    home = tmp_path_factory.mktemp("elsewhere")
+    with sqlite_stores.fresh(home) as settings, closing(open_database(settings)) as db:
+        pack_study(db, settings, trained_study(db, settings), home / "study.zip")
+    return home / "study.zip"
+
+
 @pytest.fixture
-def client(settings: Settings, tmp_path: Path):
-    with TestClient(create_app(settings, tmp_path / "dist"), base_url="http://127.0.0.1") as client:
-        yield client
+def client(service: Service) -> httpx.Client:
+    return service.client
 
 
-def upload(client: TestClient, content: bytes):
+def upload(client: httpx.Client, content: bytes):
     return client.post("/api/study-files", content=content, headers={"content-type": "application/zip"})
 
 
-def test_a_study_goes_in_and_out(client: TestClient, exported: Path, settings: Settings, tmp_path: Path) -> None:
+def test_a_study_goes_in_and_out(client: httpx.Client, exported: Path, settings: Settings, tmp_path: Path) -> None:
     taken = upload(client, exported.read_bytes())
 
     assert taken.status_code == 200, taken.text
@@ -49,24 +61,26 @@ def test_a_study_goes_in_and_out(client: TestClient, exported: Path, settings: S
 
 
 @pytest.mark.parametrize("content", [b"", b"PK\x03\x04", b"{}"], ids=["empty", "cut", "text"])
-def test_what_is_no_study_file_is_told(client: TestClient, content: bytes) -> None:
+def test_what_is_no_study_file_is_told(client: httpx.Client, content: bytes) -> None:
     answer = upload(client, content)
 
     assert answer.status_code == 422
     assert "is no study file" in answer.json()["problems"][0]["message"]
 
 
-def test_a_body_that_is_too_long_is_not_read_on(client: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_body_that_is_too_long_is_not_read_on(client: httpx.Client, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(study_files, "LARGEST_STUDY_FILE", 1000)
 
     assert upload(client, b"0" * 1001).status_code == 413
 
 
-def test_a_study_that_is_not_there_cannot_be_taken_along(client: TestClient) -> None:
+def test_a_study_that_is_not_there_cannot_be_taken_along(client: httpx.Client) -> None:
     assert client.get("/api/study-files/nothing").status_code == 404
 
 
-def test_the_sample_is_opened_in_one_step(client: TestClient, exported: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_sample_is_opened_in_one_step(
+    client: httpx.Client, exported: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setenv(SAMPLE_VARIABLE, str(exported))
 
     assert client.get("/api/study-files/sample").json() == {"size": exported.stat().st_size}
@@ -76,7 +90,7 @@ def test_the_sample_is_opened_in_one_step(client: TestClient, exported: Path, mo
     assert client.post("/api/study-files/sample").json() == {**opened, "already_there": True}
 
 
-def test_without_a_sample_none_is_offered(client: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_a_sample_none_is_offered(client: httpx.Client, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv(SAMPLE_VARIABLE, "/nonexistent")
 
     assert client.get("/api/study-files/sample").json() == {"size": None}
@@ -84,6 +98,6 @@ def test_without_a_sample_none_is_offered(client: TestClient, monkeypatch: pytes
 
 
 @pytest.mark.skipif(not SHIPPED.is_file(), reason="no sample study is shipped yet")
-def test_the_shipped_sample_is_small_and_opens(client: TestClient) -> None:
+def test_the_shipped_sample_is_small_and_opens(client: httpx.Client) -> None:
     assert SHIPPED.stat().st_size <= LARGEST_SAMPLE
     assert client.post("/api/study-files/sample").status_code == 200
