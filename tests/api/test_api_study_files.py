@@ -98,6 +98,7 @@ def test_without_a_sample_none_is_offered(client: httpx.Client, monkeypatch: pyt
 
 
 @pytest.mark.skipif(not SHIPPED.is_file(), reason="no sample study is shipped yet")
-def test_the_shipped_sample_is_small_and_opens(client: httpx.Client) -> None:
+def test_the_shipped_sample_is_small_and_opens(client: httpx.Client, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv(SAMPLE_VARIABLE)
     assert SHIPPED.stat().st_size <= LARGEST_SAMPLE
     assert client.post("/api/study-files/sample").status_code == 200
