@@ -18,7 +18,7 @@ ask() { # name, words of an answer that found something, command...
             echo "$said"
             failed=1
         else
-            echo "$name: the registry did not answer, so nothing was looked at ($(tail -n 1 <<<"$said"))."
+            echo "$name: the registry did not answer, so nothing was looked at ($(head -n 1 <<<"$said"))."
         fi
         ;;
     esac

@@ -4,7 +4,7 @@
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-every=(lint format imports types client audit web-check web-test pytest)
+every=(lint format imports types client web-check web-test pytest)
 wanted=("$@")
 [[ ${1:-all} != all ]] || wanted=("${every[@]}" "${@:2}")
 # Tests wait for other processes much of the time, and these fill it; what they say is kept until their turn comes.
@@ -15,7 +15,6 @@ check_lint() { .venv/bin/ruff check; }
 check_format() { .venv/bin/ruff format --check; }
 check_imports() { .venv/bin/lint-imports; }
 check_types() { .venv/bin/pyright; }
-check_audit() { .ci/audit.sh; }
 check_web-check() { npm --prefix web run --silent check; }
 check_web-test() { npm --prefix web run --silent test; }
 

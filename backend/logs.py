@@ -18,6 +18,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import IO, Literal, cast, get_args
 
+from backend.redaction import redact
 from sldr_core.errors import InvalidConfig
 
 LogStyle = Literal["human", "json"]
@@ -82,6 +83,10 @@ class HumanLines(logging.Formatter):
     def __init__(self) -> None:
         super().__init__("%(asctime)s %(message)s")
 
+    def format(self, record: logging.LogRecord) -> str:
+        """Return all of it, without secrets."""
+        return redact(super().format(record))
+
     def formatMessage(self, record: logging.LogRecord) -> str:  # noqa: N802 - named by the standard library
         """Return the line, without a traceback."""
         ids = " ".join(f"{name}={value}" for name, value in _about.get({}).items())
@@ -108,7 +113,7 @@ class JsonLines(logging.Formatter):
         }
         if record.exc_info:
             line["error"] = self.formatException(record.exc_info)
-        return json.dumps(line, ensure_ascii=False, default=str)
+        return redact(json.dumps(line, ensure_ascii=False, default=str))
 
 
 _held: list[IO[str]] = []

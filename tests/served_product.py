@@ -26,7 +26,9 @@ PAGE_AND_API = ("backend.api",)
 
 
 @contextmanager
-def serving(home: Path, port: int, module: Sequence[str], needs: Sequence[str] = ()) -> Generator[str]:
+def serving(
+    home: Path, port: int, module: Sequence[str], needs: Sequence[str] = (), options: Sequence[str] = ()
+) -> Generator[str]:
     """Serve a data directory and lend the address once it answers.
 
     Args:
@@ -34,6 +36,7 @@ def serving(home: Path, port: int, module: Sequence[str], needs: Sequence[str] =
         port: a free port.
         module: what to run, `WHOLE` or `PAGE_AND_API`.
         needs: what must be alive, as `/healthz` names it.
+        options: further words of the command line.
 
     Raises:
         RuntimeError: it did not come up.
@@ -41,12 +44,13 @@ def serving(home: Path, port: int, module: Sequence[str], needs: Sequence[str] =
     address = f"http://127.0.0.1:{port}"
     log = home / "serve.log"
     with log.open("w") as output:
-        command = [sys.executable, "-m", *module, "--port", str(port)]
+        command = [sys.executable, "-m", *module, "--port", str(port), *options]
         environment = {**os.environ, "SLDR_HOME": str(home)}
         process = subprocess.Popen(command, env=environment, stdout=output, stderr=subprocess.STDOUT)
     try:
         _wait_until_healthy(address, process, log, needs)
-        know(address, home)
+        if "--accounts" not in options:
+            know(address, home)
         yield address
     finally:
         forget(address)

@@ -7,7 +7,6 @@ import argparse
 import uvicorn
 from fastapi import FastAPI
 
-from backend.api.access.redaction import hide_secrets
 from backend.api.app import create_app
 from backend.api.hosts import load_host_rule
 from backend.api.server_mark import local_url, marked
@@ -46,7 +45,6 @@ def main() -> None:
     arguments = parser.parse_args()
     settings = load_settings()
     start_logging("api", settings.logs_directory, load_style())
-    hide_secrets("sldr.api", "sldr.api.viewer", "uvicorn.access", "uvicorn.error")
     mode = choose_mode(arguments.host, arguments.accounts)
     app = create_app(settings, hosts=load_host_rule(arguments.host), mode=mode)
     with marked(settings, local_url(arguments.host, arguments.port)):

@@ -10,7 +10,7 @@ from pydantic import Field
 from backend.api.access.passwords import LONGEST_PASSWORD
 from backend.api.schemas import Strict
 from backend.store.access.audit import Outcome
-from backend.store.access.entry import AccessMode
+from backend.store.access.entry import ACCOUNT_NAME, AccessMode
 from backend.store.access.roles import Role
 from backend.store.schema import NAME_LENGTH
 
@@ -20,7 +20,7 @@ LONGEST_SECRET = 500
 MOST_DAYS = 3650
 """Longest life of a token [days]."""
 
-AccountName = Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9._-]{0,63}$", description="Small letters, digits, . _ -")]
+AccountName = Annotated[str, Field(pattern=ACCOUNT_NAME, description="Small letters, digits, . _ -")]
 Password = Annotated[str, Field(min_length=1, max_length=LONGEST_PASSWORD)]
 Secret = Annotated[str, Field(min_length=1, max_length=LONGEST_SECRET)]
 TokenName = Annotated[str, Field(min_length=1, max_length=NAME_LENGTH, pattern=r"\S")]

@@ -10,6 +10,7 @@ from pathlib import Path
 from fastapi import Depends, FastAPI
 from fastapi.routing import APIRoute
 from prometheus_client import CollectorRegistry
+from starlette.middleware.body_limit import RequestBodyLimitMiddleware
 from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddleware
 
 from backend.api import viewer_proxy
@@ -124,7 +125,6 @@ def create_app(
         redoc_url=None,
         generate_unique_id_function=_operation_id,
         lifespan=_lifespan(settings, mode, passwords),
-        max_body_size=LARGEST_BODY,
     )
     for routes in ROUTES:
         app.include_router(routes.router, dependencies=[Depends(check_access)])
@@ -145,6 +145,7 @@ def _add_guards(app: FastAPI, hosts: HostRule) -> None:
     app.add_middleware(Gate)
     app.add_middleware(SameOrigin)
     app.add_middleware(OwnHost, rule=hosts)
+    app.add_middleware(RequestBodyLimitMiddleware, max_body_size=LARGEST_BODY)
     app.state.registry = CollectorRegistry()
     app.add_middleware(RequestMeter, latencies=make_latencies(app.state.registry))
     app.add_middleware(LargeBodies)

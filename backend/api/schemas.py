@@ -236,6 +236,9 @@ class RunFile(Strict):
     sha256: str
     created_at: datetime
     url: str
+    ticket: str | None = Field(
+        description="Of a recording: `url` with `?ticket=` and this opens for some minutes without a session."
+    )
 
 
 class RunFiles(Strict):

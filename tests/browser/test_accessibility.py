@@ -51,6 +51,10 @@ PAGES = {
     "configs": ("/compare/configs?runs={run_id},{other_id}", "main table"),
     "queue": ("/queue", "main li"),
     "workers": ("/workers", "main h2, main h3"),
+    "account": ("/account", "main table"),
+    "accounts": ("/accounts", "main table"),
+    "sign in": ("/sign-in", "main h1"),
+    "welcome": ("/welcome#sldr_unknown", "main [role=alert]"),
     "settings": ("/settings", "main h2"),
 }
 """Address of each page, and what is there once it has drawn itself."""

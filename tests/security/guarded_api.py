@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator
+from collections.abc import Generator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from unittest.mock import patch
 
 import httpx
 from argon2 import PasswordHasher
@@ -56,6 +57,11 @@ class Guarded:
         return entry
 
 
+def _draw_nothing(drawings: Sequence[object]) -> list[bytes]:
+    """Stand in for drawing, which takes seconds and has tests of its own."""
+    return [b"drawn"] * len(drawings)
+
+
 @contextmanager
 def guarded(home: Path) -> Generator[Guarded]:
     """Serve an empty data directory to accounts named like their roles, all with `PASSWORD`."""
@@ -66,6 +72,8 @@ def guarded(home: Path) -> Generator[Guarded]:
     settings = Settings(home=home, database_url=sqlite_url(home))
     app = create_app(settings, page, mode="accounts", passwords=CHEAP)
     with ExitStack() as stack:
+        for module in ("backend.api.routes.compare_exports", "backend.figures.bundle"):
+            stack.enter_context(patch(f"{module}.draw_apart", _draw_nothing))
         address = stack.enter_context(serving(app))
         database = app.state.service.database
         programs: dict[Role, httpx.Client] = {}

@@ -59,10 +59,7 @@ HEALTH_CHECKS = [HealthCheck.too_slow, HealthCheck.filter_too_much, HealthCheck.
 @pytest.fixture(scope="module")
 def api(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Guarded]:
     """Return an API that holds a run."""
-    with pytest.MonkeyPatch.context() as patch, guarded(tmp_path_factory.mktemp("described")) as api:
-        # Drawing takes seconds and has tests of its own.
-        for module in ("backend.api.routes.compare_exports", "backend.figures.bundle"):
-            patch.setattr(f"{module}.draw_apart", lambda drawings: [b"drawn"] * len(drawings))
+    with guarded(tmp_path_factory.mktemp("described")) as api:
         launch(api.database, LaunchOrder("FetchPush", "manipulation", "her-sldr", (0,), "smoke"))
         yield api
 

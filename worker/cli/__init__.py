@@ -23,6 +23,7 @@ COMMANDS = {
     "render": "Draw the picture of a task.",
     "export": "Draw figures, pack a study, or write runs for other tools: Rerun, TensorBoard, MLflow.",
     "import": "Take in a study that another installation has exported.",
+    "accounts": "List who may sign in, or make a one-time link for somebody.",
     "backup": "Copy all runs and their files to one place, while everything runs.",
     "restore": "Bring back what backup has copied.",
     "list": "List tasks, methods, presets or shipped locomotion models.",

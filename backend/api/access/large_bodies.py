@@ -1,4 +1,4 @@
-"""Requests that are too large, answered like every other error: FastAPI stops them with a bare word."""
+"""Requests that are too large, answered like every other error: what counts them stops them with a bare word."""
 
 from __future__ import annotations
 

@@ -13,15 +13,13 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from backend.api.access.callers import Caller
 from backend.api.access.declarations import declaration_of
-from backend.api.access.redaction import redact
+from backend.redaction import redact
 from backend.store.access.audit import Deed, Outcome, write_entry
+from backend.store.access.entry import NOBODY
 from backend.store.database import Database
 from backend.store.errors import StoreUnavailable
 
 log = logging.getLogger("sldr.audit")
-
-NOBODY = "nobody"
-"""Stands for whoever is not known."""
 
 REFUSED = frozenset({401, 403, 413, 429})
 """Answers that say that something was not allowed."""

@@ -7,9 +7,7 @@ from typing import Annotated
 
 from fastapi import APIRouter, Query
 
-from backend.api.access.callers import LOCAL_NAME
 from backend.api.access.declarations import needs
-from backend.api.access.trail import NOBODY
 from backend.api.access_schemas import (
     AccountInfo,
     Accounts,
@@ -30,7 +28,7 @@ from backend.store.access.accounts import (
     get_account,
     list_accounts,
 )
-from backend.store.access.entry import WELCOME
+from backend.store.access.entry import RESERVED_NAMES, WELCOME
 from backend.store.database import Database
 from backend.store.schema import NAME_LENGTH
 
@@ -54,7 +52,7 @@ def list_all_accounts(store: Store) -> Accounts:
 @needs("admin")
 def add_account(wish: NewAccount, store: Store) -> InvitationLink:
     """Make an account, and a one-time link with which its owner sets the password."""
-    if wish.name in (LOCAL_NAME, NOBODY):
+    if wish.name in RESERVED_NAMES:
         raise ApiError(422, f"'{wish.name}' stands for something else; choose another name.", "name")
     return _link(store, create_account(store, wish.name, wish.role))
 

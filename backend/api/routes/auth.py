@@ -8,11 +8,11 @@ from typing import Annotated
 from fastapi import APIRouter, Query, Request, Response
 from fastapi.responses import RedirectResponse
 
-from backend.api.access.callers import LOCAL_NAME, Caller, is_local_token
+from backend.api.access.callers import Caller, is_local_token
 from backend.api.access.declarations import needs, open_to_all
 from backend.api.access.gate import caller_or_refusal
 from backend.api.access.passwords import find_weakness
-from backend.api.access.trail import NOBODY, client_address, record
+from backend.api.access.trail import client_address, record
 from backend.api.access_schemas import (
     CallerInfo,
     InvitationAccept,
@@ -26,6 +26,7 @@ from backend.api.dependencies import KnownCaller, Service, ServiceParts
 from backend.api.errors import ApiError, problem_responses
 from backend.store.access import accounts, invitations, login_sessions
 from backend.store.access.audit import Deed, Outcome
+from backend.store.access.entry import LOCAL_NAME, NOBODY
 from backend.store.errors import Refused
 
 router = APIRouter(prefix="/api/auth", tags=["access"])
@@ -70,7 +71,7 @@ def enter(entry: TokenEntry, request: Request, response: Response, service: Serv
 def sign_in(wish: SignIn, request: Request, response: Response, service: ServiceParts) -> None:
     """Sign a browser in with an account and its password."""
     name = wish.name.strip().lower()
-    _admit(service, request, "sign in", name)
+    _admit(service, request, name)
     found = accounts.find_password(service.database, name)
     if not service.access.passwords.matches(found[1] if found else None, wish.password) or found is None:
         _tell(service, request, name, "sign in", "refused", "wrong name or password")
@@ -115,26 +116,24 @@ def sign_out(caller: KnownCaller, response: Response, service: ServiceParts) -> 
 def _check_local_token(service: Service, request: Request, token: str) -> None:
     if service.access.mode != "token":
         raise ApiError(409, "This server asks for an account and its password.", "token")
-    _admit(service, request, "enter", None)
+    # Nobody guesses it, so whoever has it need not wait for others who try.
     if not is_local_token(service.access, token):
+        _admit(service, request, None)
         _tell(service, request, NOBODY, "enter", "refused", "wrong token")
         raise ApiError(403, "This is not the token of this server; 'sldr serve' prints it when it starts.", "token")
-    service.access.throttle.forgive(None, client_address(request.scope))
 
 
 def _open_link(service: Service, request: Request, token: str) -> accounts.Account:
-    _admit(service, request, "open one-time link", None)
     try:
-        account = invitations.find_invited(service.database, token)
+        return invitations.find_invited(service.database, token)
     except Refused as error:
+        _admit(service, request, None)
         _tell(service, request, NOBODY, "open one-time link", "refused", str(error))
         raise
-    service.access.throttle.forgive(None, client_address(request.scope))
-    return account
 
 
-def _admit(service: Service, request: Request, action: str, name: str | None) -> None:
-    """Refuse whoever has failed too often, before any work is done for it."""
+def _admit(service: Service, request: Request, name: str | None) -> None:
+    """Count an attempt, and refuse whoever has failed too often."""
     pause_s = service.access.throttle.admit(name, client_address(request.scope))
     if pause_s:
         minutes = math.ceil(pause_s / 60)

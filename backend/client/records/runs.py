@@ -120,6 +120,8 @@ class RunFile:
     sha256: str
     created_at: datetime
     url: str
+    ticket: str | None
+    """Of a recording: what opens its `url` for some minutes without a token."""
 
 
 @dataclass(frozen=True, config=RECORD)

@@ -16,6 +16,18 @@ AccessMode = Literal["token", "accounts"]
 LOOPBACK = frozenset({"127.0.0.1", "localhost", "::1"})
 """Bound to one of these, a server is reached from its own machine only."""
 
+ACCOUNT_NAME = r"^[a-z0-9][a-z0-9._-]{0,63}$"
+"""What an account may be called."""
+
+LOCAL_NAME = "local"
+"""Stands for whoever came with the token of a server on loopback."""
+
+NOBODY = "nobody"
+"""Stands for whoever is not known."""
+
+RESERVED_NAMES = frozenset({LOCAL_NAME, NOBODY})
+"""No account has one of these names."""
+
 WELCOME = "/welcome#"
 """Where a one-time link leads. Its secret stands behind the hash: browsers never send that, so no log holds it."""
 

@@ -3301,6 +3301,11 @@ export interface components {
             sha256: string;
             /** Size */
             size: number;
+            /**
+             * Ticket
+             * @description Of a recording: `url` with `?ticket=` and this opens for some minutes without a session.
+             */
+            ticket: string | null;
             /** Url */
             url: string;
         };
