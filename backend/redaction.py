@@ -8,6 +8,7 @@ HIDDEN = "***"
 
 SECRETS = (
     re.compile(r"(?<=[?&]token=)[^&\s\"']+"),
+    re.compile(r"(?<=[?&]ticket=)[^&\s\"']+"),
     re.compile(r"(?<=/viewer/)[^/\s\"'?]+"),
     re.compile(r"\bsldr_[\w-]{20,}"),
     re.compile(r"(?<=[Bb]earer )[^\s\"',]+"),

@@ -37,6 +37,8 @@ def test_the_printed_address_opens_once_clicked_and_leaves_no_token_behind(local
         answer = browser.get(printed, follow_redirects=True)
         assert str(answer.url) == f"{address}/"
         assert browser.get("/api/runs").status_code == 200
+        browser.get(printed, follow_redirects=True)
+        assert len(browser.get("/api/account/sessions").json()["sessions"]) == 1
         [cookie] = [step.headers["set-cookie"] for step in answer.history if "set-cookie" in step.headers]
     assert {"HttpOnly", "Path=/", "SameSite=strict"} <= {part.strip() for part in cookie.split(";")}
     assert load_local_token(settings) not in cookie
@@ -84,6 +86,7 @@ def test_the_first_admin_comes_in_with_the_printed_link(tmp_path: Path):
         greeting = greet(settings, address, "accounts")
         token = greeting.partition("/welcome#")[2].strip()
         with new_client(address) as browser:
+            browser.headers["origin"] = address
             assert browser.post("/api/auth/invitation", json={"token": token}).json()["role"] == "admin"
             short = browser.post("/api/auth/invitation/accept", json={"token": token, "password": "short"})
             assert short.status_code == 422

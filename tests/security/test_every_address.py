@@ -148,3 +148,10 @@ def dial(api: Guarded, path: str, authorization: str | None) -> int:
     with pytest.raises(InvalidStatus) as refused:
         connect(address, origin=Origin(api.address), additional_headers=headers, proxy=None)
     return refused.value.response.status_code
+
+
+def test_whatever_takes_a_body_says_that_it_may_not_be_readable(api: Guarded):
+    operations = [one for methods in api.app.openapi()["paths"].values() for one in methods.values()]
+    taking = [one for one in operations if "requestBody" in one]
+    assert taking
+    assert [one["operationId"] for one in taking if "400" not in one["responses"]] == []

@@ -35,7 +35,7 @@ CHECKS = [
     negative_data_rejection,
 ]
 
-EXAMPLES = int(os.environ.get("SLDR_FUZZ_EXAMPLES", "3"))
+EXAMPLES = int(os.environ.get("SLDR_FUZZ_EXAMPLES", "2"))
 """Requests made up for each operation; each is sent as nobody and as every role."""
 
 WALKS = max(1, EXAMPLES // 3)

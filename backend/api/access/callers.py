@@ -10,6 +10,7 @@ from starlette.requests import HTTPConnection
 
 from backend.api.access.passwords import Passwords
 from backend.api.access.throttle import Throttle
+from backend.api.access.tickets import Tickets, opens_by_ticket
 from backend.store.access import api_tokens, login_sessions
 from backend.store.access.accounts import Account
 from backend.store.access.entry import LOCAL_NAME, AccessMode
@@ -29,6 +30,7 @@ class Access:
     local_token: str
     passwords: Passwords
     throttle: Throttle
+    tickets: Tickets
 
 
 @dataclass(frozen=True)
@@ -41,6 +43,10 @@ class Caller:
     """None: whoever came with the token of a server on loopback."""
     session_id: str | None
     """The browser's session; None: a program."""
+
+
+TICKET_HOLDER = Caller("a ticket", "viewer", None, None)
+"""Whoever shows a ticket may read the one address that it opens."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +67,7 @@ TOKEN_VOID = Refusal("This token opens nothing: it is unknown, expired or revoke
 def open_access(settings: Settings, secret: bytes, mode: AccessMode, passwords: Passwords) -> Access:
     """Return what decides who comes in over a data directory."""
     cookie = f"sldr_session_{sha256(secret + b'cookie').hexdigest()[:8]}"
-    return Access(mode, cookie, load_local_token(settings), passwords, Throttle())
+    return Access(mode, cookie, load_local_token(settings), passwords, Throttle(), Tickets(secret))
 
 
 def find_caller(access: Access, db: Database, connection: HTTPConnection) -> Caller | Refusal:
@@ -69,6 +75,8 @@ def find_caller(access: Access, db: Database, connection: HTTPConnection) -> Cal
     shown = connection.headers.get("authorization")
     if shown is not None:
         return _find_by_token(access, db, shown)
+    if opens_by_ticket(access.tickets, connection):
+        return TICKET_HOLDER
     secret = connection.cookies.get(access.cookie)
     return NOTHING_SHOWN[access.mode] if secret is None else _find_by_session(access, db, secret)
 

@@ -49,11 +49,14 @@ async def get_me(request: Request, service: ServiceParts) -> Me:
 @open_to_all
 def follow_link(request: Request, service: ServiceParts, token: Annotated[str, Query()] = "") -> Response:
     """Sign the browser in that opened the printed address, and lead it to an address without the token."""
+    answer = RedirectResponse("/", 303)
+    found = request.scope["state"]["caller"]
+    if isinstance(found, Caller) and found.session_id is not None:
+        return answer  # Opening the address again makes no second session.
     try:
         _check_local_token(service, request, token)
     except ApiError:
         return RedirectResponse("/sign-in?reason=token", 303)
-    answer = RedirectResponse("/", 303)
     _start_session(service, request, answer, None, LOCAL_NAME)
     return answer
 

@@ -47,7 +47,7 @@ def get_run_thumbnail(run_id: str, store: Store, storage: Storage, settings: Ser
         return RedirectResponse(f"/api/tasks/{run.task}/picture")
 
 
-@router.post("/videos", status_code=202, responses=problem_responses(403, 404, 409, 422))
+@router.post("/videos", status_code=202, responses=problem_responses(400, 403, 404, 409, 422))
 @needs("operator")
 def order_video(run_id: str, order: VideoOrder, store: Store) -> Video:
     """Order a video of an episode; one that is there or on its way is not made again, one that failed is."""

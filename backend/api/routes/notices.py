@@ -6,7 +6,7 @@ from datetime import UTC, datetime
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Query
-from pydantic import AwareDatetime
+from pydantic import AwareDatetime, BeforeValidator
 
 from backend.api.access.declarations import needs
 from backend.api.dependencies import ServiceParts, Store
@@ -16,8 +16,23 @@ from backend.store import notices, webhooks
 from backend.webhooks.messages import trial_body
 from backend.webhooks.targets import check_url
 
+
+def refuse_number(text: str) -> str:
+    """Return a text that is no number: those would be taken for seconds, which the schema does not offer.
+
+    Raises:
+        ValueError: it is one.
+    """
+    if text.strip().replace(".", "", 1).lstrip("+-").isdigit():
+        raise ValueError("a time is written as in 2026-01-31T12:00:00Z")
+    return text
+
+
 MOST_NOTICES = 100
 """Notices in one answer at most, the newest."""
+
+Moment = Annotated[AwareDatetime, BeforeValidator(refuse_number)]
+"""A time with its zone, as RFC 3339 writes it."""
 
 router = APIRouter(prefix="/api", tags=["notices"])
 
@@ -25,7 +40,7 @@ router = APIRouter(prefix="/api", tags=["notices"])
 @router.get("/notices", responses=problem_responses(422))
 @needs("viewer")
 def list_notices(
-    store: Store, since: Annotated[AwareDatetime, Query(description="Only what has happened after it.")]
+    store: Store, since: Annotated[Moment, Query(description="Only what has happened after it.")]
 ) -> Notices:
     """List the newest studies that have ended and runs that have failed, the oldest of them first."""
     now = datetime.now(UTC)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Annotated
 from urllib.parse import quote
@@ -10,7 +11,8 @@ from fastapi import APIRouter, Header, Query
 from fastapi.responses import FileResponse, Response
 
 from backend.api.access.declarations import needs
-from backend.api.dependencies import ServiceSettings, Storage, Store
+from backend.api.access.tickets import Tickets
+from backend.api.dependencies import ServiceParts, ServiceSettings, Storage, Store
 from backend.api.downloads import send_file
 from backend.api.errors import problem_responses
 from backend.api.routes.runs import LARGEST_CURSOR
@@ -22,6 +24,9 @@ from backend.store.storage import FileStorage
 
 LOG_PIECE = 64 * 1024
 """Most of a log that one answer holds [bytes]."""
+
+RECORDING_KIND = "recording"
+"""Files that Rerun's viewer fetches, which sends no cookie."""
 
 router = APIRouter(prefix="/api/runs/{run_id}", tags=["runs"])
 
@@ -45,22 +50,11 @@ def get_run_log(
 
 @router.get("/files", responses=problem_responses(404, 422))
 @needs("viewer")
-def list_run_files(run_id: str, store: Store) -> RunFiles:
+def list_run_files(run_id: str, service: ServiceParts) -> RunFiles:
     """List a run's stored files."""
-    runs.get_run(store, run_id)
-    return RunFiles(
-        files=[
-            RunFile(
-                name=row.name,
-                kind=row.kind,
-                size=row.size,
-                sha256=row.sha256,
-                created_at=row.created_at,
-                url=f"/api/runs/{run_id}/files/{quote(row.name, safe='')}",
-            )
-            for row in files.list_files(store, run_id)
-        ]
-    )
+    runs.get_run(service.database, run_id)
+    rows = files.list_files(service.database, run_id)
+    return RunFiles(files=[_run_file(row, service.access.tickets) for row in rows])
 
 
 @router.get(
@@ -117,3 +111,16 @@ def _whole_characters(piece: bytes) -> int:
             length = 2 if byte < 0xE0 else 3 if byte < 0xF0 else 4
             return len(piece) - back if back < length else len(piece)
     return len(piece)
+
+
+def _run_file(row: files.FileRow, tickets: Tickets) -> RunFile:
+    path = f"/api/runs/{row.run_id}/files/{row.name}"
+    return RunFile(
+        name=row.name,
+        kind=row.kind,
+        size=row.size,
+        sha256=row.sha256,
+        created_at=row.created_at,
+        url=f"/api/runs/{row.run_id}/files/{quote(row.name, safe='')}",
+        ticket=tickets.sign(path, datetime.now(UTC)) if row.kind == RECORDING_KIND else None,
+    )

@@ -4,7 +4,15 @@ import type { RunFile } from '@/client/schema.gen';
 import { newestRecording, openCommand, RERUN_VERSION, versionUrl } from './recordings';
 
 function file(name: string, created_at: string, sha256 = 'a'.repeat(64)): RunFile {
-  return { name, created_at, sha256, kind: 'recording', size: 1, url: `/api/runs/run-1/files/${name}` };
+  return {
+    name,
+    created_at,
+    sha256,
+    kind: 'recording',
+    size: 1,
+    ticket: 'ticket',
+    url: `/api/runs/run-1/files/${name}`,
+  };
 }
 
 test('the recording that was written last is opened, whatever its name', () => {

@@ -3,7 +3,7 @@ import type { RunFile } from '@/client/schema.gen';
 import { FIRST_CHOICE, policyNames, recordedEpochs, sceneRequest } from './scene-choice';
 
 function file(name: string, kind: string): RunFile {
-  return { name, kind, size: 1, sha256: '', created_at: '', url: '' };
+  return { name, kind, size: 1, sha256: '', created_at: '', url: '', ticket: null };
 }
 
 const FILES = [

@@ -16,18 +16,23 @@ export interface RerunViewer {
   readonly setTimeline: (timeline: Timeline) => void;
 }
 
-/** @param url the recording; when it changes, the new one is opened and the old one closed */
+/**
+ * @param url the recording; when it changes, the new one is opened and the old one closed
+ * @param ticket what opens it: the viewer sends no cookie
+ */
 export function useRerunViewer(
   parent: RefObject<HTMLElement | null>,
   url: string,
+  ticket: string,
   theme: 'dark' | 'light',
 ): RerunViewer {
   const [state, setState] = useState<ViewerState>('loading');
   const [problem, setProblem] = useState<string>();
   const held = useRef<WebViewer>(null);
-  const shown = useRef<string>(null);
-  const wanted = useRef(url);
-  wanted.current = url;
+  const shown = useRef<{ url: string; address: string }>(null);
+  const address = `${url}&ticket=${encodeURIComponent(ticket)}`;
+  const wanted = useRef({ url, address });
+  wanted.current = { url, address };
 
   useEffect(() => {
     let isGone = false;
@@ -39,7 +44,7 @@ export function useRerunViewer(
       viewer.on('recording_open', () => setState('shown'));
       setState('opening');
       shown.current = wanted.current;
-      await viewer.start(wanted.current, parent.current, OPTIONS(theme), { follow_if_http: false });
+      await viewer.start(shown.current.address, parent.current, OPTIONS(theme), { follow_if_http: false });
       if (isGone) viewer.stop();
       else held.current = viewer;
     };
@@ -53,10 +58,10 @@ export function useRerunViewer(
 
   useEffect(() => {
     const viewer = held.current;
-    if (viewer === null || shown.current === url) return;
-    viewer.open(url, { follow_if_http: false });
-    if (shown.current !== null) viewer.close(shown.current);
-    shown.current = url;
+    if (viewer === null || shown.current?.url === url) return;
+    viewer.open(wanted.current.address, { follow_if_http: false });
+    if (shown.current !== null) viewer.close(shown.current.address);
+    shown.current = { ...wanted.current };
   }, [url]);
 
   const setTimeline = (timeline: Timeline): void => {

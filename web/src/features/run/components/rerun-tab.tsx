@@ -69,7 +69,7 @@ function Recording({ recording, isLive }: { recording: RunFile; isLive: boolean 
           />
         )}
       </div>
-      <Viewer recording={opened} />
+      <Viewer recording={opened.name === recording.name ? { ...opened, ticket: recording.ticket } : opened} />
     </section>
   );
 }
@@ -78,7 +78,7 @@ function Viewer({ recording }: { recording: RunFile }) {
   const scheme = useComputedColorScheme('light');
   const parent = useRef<HTMLDivElement>(null);
   const url = versionUrl(recording, window.location.origin);
-  const { state, problem, setTimeline } = useRerunViewer(parent, url, scheme);
+  const { state, problem, setTimeline } = useRerunViewer(parent, url, recording.ticket ?? '', scheme);
   const [timeline, setShown] = useState<Timeline>('env_steps');
   if (problem !== undefined) {
     return (

@@ -1,0 +1,44 @@
+"""Tickets: each opens one address to read, for some minutes, to a program in the page that sends no cookie.
+
+Rerun's viewer is such a program: it fetches a recording by its address alone.
+"""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime, timedelta
+
+from itsdangerous import BadSignature, URLSafeSerializer
+from starlette.requests import HTTPConnection
+
+LIFETIME = timedelta(minutes=10)
+"""Longer than a page needs from hearing of a file to fetching all of it."""
+
+PARAMETER = "ticket"
+
+
+class Tickets:
+    """Sign and read tickets."""
+
+    def __init__(self, secret: bytes) -> None:
+        self._serializer = URLSafeSerializer(secret, salt="ticket")
+
+    def sign(self, path: str, now: datetime) -> str:
+        """Return what opens this path from now on."""
+        signed = self._serializer.dumps([path, int((now + LIFETIME).timestamp())])
+        return signed.decode() if isinstance(signed, bytes) else signed
+
+    def open(self, ticket: str, path: str, now: datetime) -> bool:
+        """Tell whether a ticket opens this path."""
+        try:
+            signed_path, ends_at = self._serializer.loads(ticket)
+        except BadSignature:
+            return False
+        return signed_path == path and now.timestamp() < ends_at
+
+
+def opens_by_ticket(tickets: Tickets, connection: HTTPConnection) -> bool:
+    """Tell whether a request shows a ticket that opens what it reads."""
+    shown = connection.query_params.get(PARAMETER)
+    if shown is None or connection.scope.get("method") not in ("GET", "HEAD"):
+        return False
+    return tickets.open(shown, connection.scope["path"], datetime.now(UTC))
