@@ -22,7 +22,7 @@ from sqlalchemy import (
     literal_column,
 )
 
-import backend.store.access.tables  # noqa: F401 - its tables are of the same metadata
+import backend.store.access.tables  # noqa: F401  # pyright: ignore[reportUnusedImport] - its tables are of the same metadata
 from backend.store.schema import ID_LENGTH, NAME_LENGTH, UtcDateTime, metadata
 
 SCHEMA_REVISION = "0011"

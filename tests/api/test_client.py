@@ -229,7 +229,9 @@ def schemas() -> dict[str, Any]:
 @pytest.mark.parametrize("module", [comparisons, runs, service, studies])
 def test_records_ask_for_nothing_that_the_schema_does_not_promise(module: ModuleType, schemas: dict[str, Any]):
     records: list[type[Any]] = [
-        kind for kind in vars(module).values() if is_dataclass(kind) and kind.__module__ == module.__name__
+        kind
+        for kind in vars(module).values()
+        if isinstance(kind, type) and is_dataclass(kind) and kind.__module__ == module.__name__
     ]
     assert records
     for record in records:
