@@ -48,6 +48,7 @@ from backend.api.routes import (
     runs,
     saved_views,
     studies,
+    study_files,
     viewer_sessions,
     workers,
 )
@@ -78,6 +79,7 @@ ROUTES = (
     choices,
     launches,
     studies,
+    study_files,
     run_actions,
     labels,
     run_table,

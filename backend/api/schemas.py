@@ -10,6 +10,8 @@ from pydantic import BaseModel, ConfigDict, Field
 from backend.store.states import RunState
 from sldr_core.config import Phase
 
+MOST_LETTERS_OF_LOCOMOTION = 400
+
 Seed = Annotated[int, Field(ge=0, lt=2**31)]
 
 
@@ -74,6 +76,17 @@ class Choices(Strict):
     config_schema: dict[str, Any] = Field(description="JSON schema of a run's config, with defaults.")
 
 
+LocomotionChoice = Annotated[
+    str,
+    Field(
+        min_length=1,
+        max_length=MOST_LETTERS_OF_LOCOMOTION,
+        description="Where the locomotion models come from: `zoo` takes those that come with the product and trains "
+        "the others, `train` trains all, and ids of locomotion runs, separated by commas, name them.",
+    ),
+]
+
+
 class Launch(Strict):
     """A request to train: one run per seed, with the locomotion run they need."""
 
@@ -83,6 +96,7 @@ class Launch(Strict):
     seeds: list[Seed] = Field(min_length=1, max_length=100)
     preset: str
     overrides: dict[str, Any] = Field(default_factory=dict, description="Settings laid over the preset, nested.")
+    locomotion: LocomotionChoice = "zoo"
 
 
 class PlannedRun(Strict):
@@ -93,6 +107,9 @@ class PlannedRun(Strict):
     method: str
     seed: int
     reused_run_id: str | None = Field(description="The existing run that serves, if one does.")
+    zoo_success: float | None = Field(
+        description="Measured success of the zoo's model, if that serves; null for a run that is trained."
+    )
     config: dict[str, Any]
 
 

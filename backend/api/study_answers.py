@@ -22,6 +22,7 @@ def store_spec(spec: records.StudySpec) -> StudySpec:
         preset=spec.preset,
         overrides=spec.overrides,
         variants=tuple(Variant(variant.name, variant.overrides) for variant in spec.variants),
+        locomotion=spec.locomotion,
     )
 
 

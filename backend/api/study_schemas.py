@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
-from backend.api.schemas import Seed, Strict
+from backend.api.schemas import LocomotionChoice, Seed, Strict
 from backend.store.states import RunState
 from backend.store.studies.launch import LONGEST_NOTE
 from backend.store.studies.plan import Standing
@@ -43,6 +43,7 @@ class StudySpec(Strict):
         default_factory=dict, description="Settings laid over the preset in every run, nested."
     )
     variants: list[StudyVariant] = Field(default_factory=list, max_length=MOST_VARIANTS)
+    locomotion: LocomotionChoice = "zoo"
 
 
 class StudyPreviewRequest(Strict):

@@ -46,13 +46,14 @@ class Runs:
         preset: str = "quick",
         phase: Phase = "manipulation",
         settings: Mapping[str, Any] | None = None,
+        locomotion: str = "zoo",
     ) -> list[PlannedRun]:
         """Return what `launch` would queue and share, the locomotion run first; queue nothing.
 
         Raises:
             Unfit: a name or setting cannot work; the sentence says which.
         """
-        body = _launch(task, method, seeds, preset, phase, settings)
+        body = _launch(task, method, seeds, preset, phase, settings) | {"locomotion": locomotion}
         return self._connection.tell(list[PlannedRun], "POST", "/api/launches/plan", body, "runs")
 
     def launch(
@@ -63,16 +64,18 @@ class Runs:
         preset: str = "quick",
         phase: Phase = "manipulation",
         settings: Mapping[str, Any] | None = None,
+        locomotion: str = "zoo",
     ) -> list[Run]:
         """Queue one run a seed and the locomotion run they need; return all, existing ones that serve among them.
 
         Args:
             settings: what is laid over the preset, nested, as in `{"loop": {"batch_size": 256}}`.
+            locomotion: where locomotion models come from: `zoo`, `train`, or ids of locomotion runs, with commas.
 
         Raises:
             Unfit: a name or setting cannot work; the sentence says which.
         """
-        body = _launch(task, method, seeds, preset, phase, settings)
+        body = _launch(task, method, seeds, preset, phase, settings) | {"locomotion": locomotion}
         return self._connection.tell(list[Run], "POST", "/api/launches", body, "runs")
 
     def find(self, limit: int | None = None, **filters: Any) -> list[Run]:

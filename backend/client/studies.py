@@ -42,18 +42,20 @@ class Studies:
         settings: Mapping[str, Any] | None = None,
         variants: Mapping[str, Mapping[str, Any]] | None = None,
         note: str = "",
+        locomotion: str = "zoo",
     ) -> StudyOutcome:
         """Make a study and queue the runs that nothing serves yet.
 
         Args:
             settings: what is laid over the preset in every run, nested, as in `{"loop": {"batch_size": 256}}`.
             variants: further settings that are tried beside each other, by a name for each.
+            locomotion: where locomotion models come from: `zoo`, `train`, or ids of locomotion runs, with commas.
 
         Raises:
             Unfit: a name or setting cannot work; the sentence says which.
         """
         axis = [Variant(name=key, overrides=dict(overrides)) for key, overrides in (variants or {}).items()]
-        spec = StudySpec(list(tasks), list(methods), list(seeds), preset, dict(settings or {}), axis)
+        spec = StudySpec(list(tasks), list(methods), list(seeds), preset, dict(settings or {}), axis, locomotion)
         return self.create(name, spec, note)
 
     def create(self, name: str, spec: StudySpec, note: str = "") -> StudyOutcome:

@@ -66,9 +66,14 @@ def append_metrics(db: Database, claim: Claim, points: Sequence[MetricPoint]) ->
         _check_finite(point)
     with db.write() as conn:
         hold_fence(conn, claim)
-        first_before = first_step(conn, claim.run_id, claim.attempt)
-        added = _insert_points(conn, claim, points)
-        add_to_summaries(conn, claim.run_id, added, first_before)
+        store_points(conn, claim.run_id, claim.attempt, points)
+
+
+def store_points(conn: Connection, run_id: str, attempt: int, points: Sequence[MetricPoint]) -> None:
+    """Store the points of an attempt whose run the caller holds, and sum them up."""
+    first_before = first_step(conn, run_id, attempt)
+    added = _insert_points(conn, run_id, attempt, points)
+    add_to_summaries(conn, run_id, added, first_before)
 
 
 def read_metrics(
@@ -108,7 +113,9 @@ def _check_finite(point: MetricPoint) -> None:
             raise ValueError(f"metric {name} is {value} at cycle {point.step.cycle}; only finite numbers are stored")
 
 
-def _stored_names(conn: Connection, claim: Claim, points: Sequence[MetricPoint]) -> dict[int, tuple[int, set[str]]]:
+def _stored_names(
+    conn: Connection, run_id: str, attempt: int, points: Sequence[MetricPoint]
+) -> dict[int, tuple[int, set[str]]]:
     """Return, for each step that the attempt has logged already, its id and the names under which it did."""
     if not points:
         return {}
@@ -116,8 +123,8 @@ def _stored_names(conn: Connection, claim: Claim, points: Sequence[MetricPoint])
         select(metric_steps.c.step, metric_steps.c.id, metric_values.c.name)
         .outerjoin(metric_values, metric_values.c.step_id == metric_steps.c.id)
         .where(
-            metric_steps.c.run_id == claim.run_id,
-            metric_steps.c.attempt == claim.attempt,
+            metric_steps.c.run_id == run_id,
+            metric_steps.c.attempt == attempt,
             metric_steps.c.step >= min(point.step.cycle for point in points),
         )
     )
@@ -127,11 +134,11 @@ def _stored_names(conn: Connection, claim: Claim, points: Sequence[MetricPoint])
     return stored
 
 
-def _insert_points(conn: Connection, claim: Claim, points: Sequence[MetricPoint]) -> list[LoggedValues]:
+def _insert_points(conn: Connection, run_id: str, attempt: int, points: Sequence[MetricPoint]) -> list[LoggedValues]:
     """Store what is not there yet of some points; return that."""
-    stored = _stored_names(conn, claim, points)
+    stored = _stored_names(conn, run_id, attempt, points)
     missing = {point.step.cycle: point.step for point in points if point.step.cycle not in stored}
-    stored |= {cycle: (step_id, set()) for cycle, step_id in _insert_steps(conn, claim, missing.values())}
+    stored |= {cycle: (step_id, set()) for cycle, step_id in _insert_steps(conn, run_id, attempt, missing.values())}
     added: list[LoggedValues] = []
     for point in points:
         names = stored[point.step.cycle][1]
@@ -148,12 +155,12 @@ def _insert_points(conn: Connection, claim: Claim, points: Sequence[MetricPoint]
     return added
 
 
-def _insert_steps(conn: Connection, claim: Claim, steps: Iterable[Step]) -> list[tuple[int, int]]:
+def _insert_steps(conn: Connection, run_id: str, attempt: int, steps: Iterable[Step]) -> list[tuple[int, int]]:
     """Store steps in their order, which cursors follow; return the id of each beside its cycle."""
     rows = [
         {
-            "run_id": claim.run_id,
-            "attempt": claim.attempt,
+            "run_id": run_id,
+            "attempt": attempt,
             "step": step.cycle,
             "epoch": step.epoch,
             "env_steps": step.env_steps,

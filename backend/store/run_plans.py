@@ -8,17 +8,21 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import Any
 
-from sqlalchemy import Connection, func, insert, select
+from sqlalchemy import Connection, func, insert, or_, select
 
 from backend.store.dependents import why_blocked
+from backend.store.locomotion import LocomotionWish, find_sources
 from backend.store.order import last_position
 from backend.store.states import Event, RunState, append_event
 from backend.store.tables import AnyRow, run_needs, runs
+from backend.store.zoo_runs import ZOO_TAG, ZooShelf, import_model
 from sldr_core.config import Phase, TrainConfig, config_hash, config_to_dict, settings_hash
-from sldr_core.presets import locomotion_tasks, make_locomotion_config
+from sldr_core.zoo.index import ZooModel
 
 RUN_ID_LENGTH = 12
 """Hex digits of a run's id."""
+TRAINED_HERE = LocomotionWish()
+"""What is asked for where nobody says anything else."""
 
 
 @dataclass(frozen=True)
@@ -32,6 +36,8 @@ class PlannedRun:
     """Config hashes of the locomotion runs in the same plan that it waits for."""
     reused_run_id: str | None
     """The existing run that serves, if one does."""
+    model: ZooModel | None = None
+    """The model of the zoo that it is made from, if it is."""
 
     @property
     def task(self) -> str:
@@ -55,7 +61,11 @@ class PlannedRun:
 
 
 def plan_runs(
-    conn: Connection, configs: Sequence[TrainConfig], preset: str, share_all: bool = False
+    conn: Connection,
+    configs: Sequence[TrainConfig],
+    preset: str,
+    share_all: bool = False,
+    wish: LocomotionWish = TRAINED_HERE,
 ) -> list[PlannedRun]:
     """Return the runs that configs stand for, in their order, behind the locomotion runs that they need.
 
@@ -63,17 +73,26 @@ def plan_runs(
         configs: what is wanted, each once.
         preset: the budget of the locomotion runs, and the name of it that every run bears.
         share_all: whether any existing run may serve; else only locomotion runs are shared.
+        wish: where locomotion models come from.
+
+    Raises:
+        InvalidConfig: a locomotion run that a person has named cannot serve.
     """
     wanted = {config_hash(config): config for config in configs}
     shareable = [digest for digest, config in wanted.items() if share_all or config.phase == "locomotion"]
     serving = find_serving(conn, shareable)
     # A run that is there already has what it needs, or says itself what became of that.
-    needed = {digest: _locomotion_configs(config, preset) for digest, config in wanted.items() if digest not in serving}
-    locomotion = {digest: config for of_one_run in needed.values() for digest, config in of_one_run.items()}
-    serving = find_serving(conn, [*locomotion]) | serving
+    needed = {
+        digest: {config_hash(source.config): source for source in find_sources(conn, wish, config, preset)}
+        for digest, config in wanted.items()
+        if digest not in serving
+    }
+    locomotion = {digest: source for of_one_run in needed.values() for digest, source in of_one_run.items()}
+    named = {digest: source.run_id for digest, source in locomotion.items() if source.run_id is not None}
+    serving = find_serving(conn, [*locomotion]) | serving | named
     plan = [
-        PlannedRun(config, digest, preset, needs=(), reused_run_id=serving.get(digest))
-        for digest, config in locomotion.items()
+        PlannedRun(source.config, digest, preset, needs=(), reused_run_id=serving.get(digest), model=source.model)
+        for digest, source in locomotion.items()
     ]
     for digest, config in wanted.items():
         plan.append(PlannedRun(config, digest, preset, tuple(needed.get(digest, ())), serving.get(digest)))
@@ -90,6 +109,8 @@ def find_serving(conn: Connection, digests: Sequence[str]) -> dict[str, str]:
             runs.c.state.not_in(lost),
             runs.c.cancel_requested.is_(False),
             runs.c.deleted_at.is_(None),
+            # What came in a study file is there to be looked at; nobody here can vouch for it.
+            or_(runs.c.origin.is_(None), runs.c.origin == ZOO_TAG),
         )
         .group_by(runs.c.config_hash)
         .subquery()
@@ -98,20 +119,26 @@ def find_serving(conn: Connection, digests: Sequence[str]) -> dict[str, str]:
     return {row.config_hash: row.id for row in found}
 
 
-def make_runs(conn: Connection, plan: Sequence[PlannedRun], at: datetime) -> dict[str, str]:
-    """Make the runs of a plan that do not exist; return the ids of all of them by their config hash, in its order."""
+def make_runs(
+    conn: Connection, plan: Sequence[PlannedRun], at: datetime, shelf: ZooShelf | None = None
+) -> dict[str, str]:
+    """Make the runs of a plan that do not exist; return the ids of all of them by their config hash, in its order.
+
+    Raises:
+        BadFile: a model of the zoo is not the one that was measured.
+        DiskTooFull: there is no room for it.
+    """
     ids = {planned.config_hash: planned.reused_run_id or _new_id() for planned in plan}
     new = [planned for planned in plan if planned.reused_run_id is None]
+    if shelf is not None:
+        for planned in new:
+            if planned.model is not None:
+                import_model(conn, shelf, ids[planned.config_hash], planned.model, at)
+        new = [planned for planned in new if planned.model is None]
     # What others need is made first, so that a needed run has the lower number.
     _insert_runs(conn, [planned for planned in new if not planned.needs], ids, at)
     _insert_runs(conn, [planned for planned in new if planned.needs], ids, at)
     return ids
-
-
-def _locomotion_configs(config: TrainConfig, preset: str) -> dict[str, TrainConfig]:
-    """Return the locomotion runs that a run takes its reward from, by their hash."""
-    configs = [make_locomotion_config(config, preset, task) for task in locomotion_tasks(config)]
-    return {config_hash(config): config for config in configs}
 
 
 def _new_id() -> str:

@@ -45,6 +45,8 @@ class Event(StrEnum):
 
     CREATED = "created"
     """It was launched."""
+    IMPORTED = "imported"
+    """It was not trained here: it came with the product, or from another installation."""
     HELD = "held"
     """It stays blocked, and it is known why."""
     UNBLOCKED = "unblocked"

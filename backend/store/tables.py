@@ -22,10 +22,10 @@ from sqlalchemy import (
     literal_column,
 )
 
-import backend.store.access.tables  # noqa: F401 - its tables are of the same metadata
+import backend.store.access.tables  # noqa: F401  # pyright: ignore[reportUnusedImport] - its tables are of the same metadata
 from backend.store.schema import ID_LENGTH, NAME_LENGTH, UtcDateTime, metadata
 
-SCHEMA_REVISION = "0010"
+SCHEMA_REVISION = "0011"
 """The migration that these tables correspond to."""
 
 AnyRow = Row[*tuple[Any, ...]]
@@ -70,6 +70,7 @@ runs = Table(
     Column("ended_at", UtcDateTime),
     Column("deleted_at", UtcDateTime),
     Column("notes", Text),
+    Column("origin", String(64)),
     Index(None, "state", "number"),
     Index(None, "state", "rank", "queue_position", "number"),
     Index(None, "queue_position"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -68,8 +69,8 @@ class LocomotionModel:
     config: TrainConfig
     measured: Measured
 
-    def save(self, path: Path) -> None:
-        """Write everything to `path`."""
+    def save(self, path: Path, change: Callable[[dict[str, Tensor]], dict[str, Tensor]] = lambda nets: nets) -> None:
+        """Write everything to `path`; `change` is done to the weights before, as keeping them in half precision."""
         save_tensors(
             path,
             {
@@ -80,7 +81,7 @@ class LocomotionModel:
                 "config_hash": config_hash(self.config),
                 "success_rate": self.measured.success_rate,
                 "test_episodes": self.measured.episodes,
-                "nets": self.nets.state_dict(),
+                "nets": change(self.nets.state_dict()),
             },
         )
 

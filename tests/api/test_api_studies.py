@@ -54,7 +54,7 @@ def test_a_study_is_launched_once_and_read_as_a_matrix(service: Service):
     assert [run["task"] for run in study["locomotion"]] == ["FetchPush"]
     (listed,) = service.get("/api/studies")["studies"]
     assert listed["id"] == outcome["study_id"]
-    assert listed["spec"] == SPEC | {"overrides": {}, "variants": []}
+    assert listed["spec"] == SPEC | {"overrides": {}, "variants": [], "locomotion": "zoo"}
 
 
 def test_the_same_request_twice_queues_nothing_twice(service: Service):

@@ -29,7 +29,7 @@ from backend.store.queue import finish
 from backend.store.settings import Settings, sqlite_url
 from sldr_core.records import Step
 
-PLAIN = {"task": "FetchPush", "method": "her", "preset": "smoke"}
+PLAIN: dict[str, Any] = {"task": "FetchPush", "method": "her", "preset": "smoke"}
 
 
 @pytest.fixture
@@ -228,7 +228,11 @@ def schemas() -> dict[str, Any]:
 
 @pytest.mark.parametrize("module", [comparisons, runs, service, studies])
 def test_records_ask_for_nothing_that_the_schema_does_not_promise(module: ModuleType, schemas: dict[str, Any]):
-    records = [kind for kind in vars(module).values() if is_dataclass(kind) and kind.__module__ == module.__name__]
+    records: list[type[Any]] = [
+        kind
+        for kind in vars(module).values()
+        if isinstance(kind, type) and is_dataclass(kind) and kind.__module__ == module.__name__
+    ]
     assert records
     for record in records:
         promised = schemas[NAMED_OTHERWISE.get(record.__name__, record.__name__)]

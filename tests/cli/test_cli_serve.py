@@ -119,7 +119,7 @@ def test_an_api_that_never_starts_is_given_up(monkeypatch: pytest.MonkeyPatch, f
     handlers = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
     try:
         with pytest.raises(CannotServe, match="ended 5 times before it answered"):
-            keep({"API": Child("API", FAILING, os.environ), "worker": others}, f"http://127.0.0.1:{free_port}", "")
+            keep({"API": Child("API", FAILING, os.environ), "worker": others}, f"http://127.0.0.1:{free_port}", str)
     finally:
         for number, handler in handlers.items():
             signal.signal(number, handler)

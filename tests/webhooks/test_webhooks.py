@@ -14,7 +14,7 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from backend.store.database import Database
@@ -24,6 +24,8 @@ from backend.webhooks.sender import Sender, send
 from backend.webhooks.targets import TargetRefused, check_url, find_target, why_refused
 from sldr_core.errors import InvalidConfig
 
+FEW = settings(max_examples=40)
+"""Of each kind of address: every one is judged in microseconds, and making them up takes longer."""
 NOW = datetime(2026, 1, 1, tzinfo=UTC)
 
 
@@ -128,6 +130,7 @@ def test_ports_are_the_usual_ones_unless_named():
     assert check_url("http://a.example:8080") == ("a.example", 8080)
 
 
+@FEW
 @given(st.text(max_size=60))
 def test_any_text_is_judged_without_a_stumble(url: str):
     for text in (url, f"http://{url}", f"https://a.example{url}"):
@@ -148,17 +151,20 @@ def within(network: Any) -> st.SearchStrategy[Any]:
     return st.integers(first, last).map(type(network.network_address))
 
 
+@FEW
 @given(st.one_of([within(network) for network in LOCAL]))
 def test_no_address_of_this_machine_or_its_link_may_be_told(address: Any):
     assert why_refused(address, allow_local=False) is not None
     assert why_refused(address, allow_local=True) is None
 
 
+@FEW
 @given(st.one_of([within(network) for network in NOBODY]))
 def test_no_address_of_nobody_or_many_may_ever_be_told(address: Any):
     assert why_refused(address, allow_local=True) is not None
 
 
+@FEW
 @given(st.one_of([within(network) for network in (*LOCAL[:2], *NOBODY[:2])]))
 def test_an_old_address_is_seen_through_every_new_dress(address: Any):
     number = int(address)
@@ -172,6 +178,7 @@ def test_an_old_address_is_seen_through_every_new_dress(address: Any):
         assert why_refused(dressed, allow_local=False) is not None, dressed
 
 
+@FEW
 @given(st.integers(0, 2**32 - 1).map(ipaddress.IPv4Address))
 def test_other_addresses_may_be_told(address: ipaddress.IPv4Address):
     refused = [*LOCAL[:2], *NOBODY[:2]]

@@ -21,14 +21,19 @@ COMMANDS = {
     "evaluate": "Measure the success of a trained policy.",
     "replay": "Simulate recorded episodes again and compare every bit.",
     "render": "Draw the picture of a task.",
-    "export": "Draw figures of runs, or write runs for other tools: Rerun, TensorBoard, MLflow.",
+    "export": "Draw figures, pack a study, or write runs for other tools: Rerun, TensorBoard, MLflow.",
+    "import": "Take in a study that another installation has exported.",
     "accounts": "List who may sign in, or make a one-time link for somebody.",
     "backup": "Copy all runs and their files to one place, while everything runs.",
     "restore": "Bring back what backup has copied.",
-    "list": "List tasks, methods or presets.",
+    "list": "List tasks, methods, presets or shipped locomotion models.",
+    "zoo": "Put locomotion models into the zoo, measured.",
     "retention": "Make room: let go what ended runs no longer need.",
     "doctor": "See whether everything here works, and how to mend what does not.",
 }
+
+MODULES = {"import": "import_study"}
+"""Commands whose name no module can have."""
 
 BAD_INPUT = 2
 """Exit code for whatever the user can put right."""
@@ -50,7 +55,7 @@ def _run(command: str, arguments: list[str]) -> int:
     try:
         if command not in COMMANDS:
             raise UnknownName("command", command, COMMANDS)
-        return import_module(f"worker.cli.commands.{command}").main(arguments)
+        return import_module(f"worker.cli.commands.{MODULES.get(command, command)}").main(arguments)
     except SldrError as error:
         return _fail(str(error))
     except StoreUnavailable as error:

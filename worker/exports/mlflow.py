@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from backend.store.states import RunState
@@ -14,7 +14,7 @@ METRICS_AT_ONCE = 1000
 """What MLflow takes in one call; the same holds for the parameters."""
 PARAMETERS_AT_ONCE = 100
 
-STATUSES = {RunState.SUCCEEDED: "FINISHED", RunState.FAILED: "FAILED", RunState.CANCELLED: "KILLED"}
+STATUSES: Mapping[str, str] = {RunState.SUCCEEDED: "FINISHED", RunState.FAILED: "FAILED", RunState.CANCELLED: "KILLED"}
 """How MLflow calls a run's end; all others are still running."""
 
 

@@ -37,6 +37,7 @@ from backend.store.studies import launch, matrix, retry
 from backend.store.studies.estimate import estimate_study
 from backend.store.studies.spec import Addition
 from backend.store.studies.templates import TEMPLATES
+from backend.store.zoo_runs import ZooShelf
 
 MOST_STUDIES = 500
 """Studies in one answer at most."""
@@ -76,15 +77,16 @@ def list_study_templates() -> StudyTemplates:
 @needs("viewer")
 def preview_study(wish: StudyPreviewRequest, store: Store, settings: ServiceSettings) -> StudyPreview:
     """Tell what launching a study, or a longer spec of one, would do and cost; queue nothing."""
-    plan = launch.preview_study(store, store_spec(wish.spec), wish.study_id)
+    plan = launch.preview_study(store, store_spec(wish.spec), wish.study_id, ZooShelf(settings))
     return study_preview(plan, estimate_study(store, plan), shutil.disk_usage(settings.home).free)
 
 
 @router.post("", status_code=201, responses=problem_responses(400, 403, 409, 422))
 @needs("operator")
-def create_study(wish: StudyLaunch, store: Store) -> StudyOutcome:
+def create_study(wish: StudyLaunch, store: Store, settings: ServiceSettings) -> StudyOutcome:
     """Make a study and queue the runs that nothing serves yet."""
-    return study_outcome(launch.create_study(store, wish.name, store_spec(wish.spec), wish.note))
+    shelf = ZooShelf(settings)
+    return study_outcome(launch.create_study(store, wish.name, store_spec(wish.spec), wish.note, shelf))
 
 
 @router.get("/{study_id}", responses=problem_responses(404, 422))
@@ -103,17 +105,17 @@ def change_study(study_id: str, change: StudyChange, store: Store) -> None:
 
 @router.post("/{study_id}/extend", responses=problem_responses(400, 403, 404, 409, 422))
 @needs("operator")
-def extend_study(study_id: str, addition: StudyAddition, store: Store) -> StudyOutcome:
+def extend_study(study_id: str, addition: StudyAddition, store: Store, settings: ServiceSettings) -> StudyOutcome:
     """Add tasks, methods or seeds to a study, and queue every run that it then misses."""
     wanted = Addition(tuple(addition.tasks), tuple(addition.methods), tuple(addition.seeds))
-    return study_outcome(launch.extend_study(store, study_id, wanted))
+    return study_outcome(launch.extend_study(store, study_id, wanted, ZooShelf(settings)))
 
 
 @router.post("/{study_id}/fill", responses=problem_responses(403, 404, 409, 422))
 @needs("operator")
-def fill_study(study_id: str, store: Store) -> StudyOutcome:
+def fill_study(study_id: str, store: Store, settings: ServiceSettings) -> StudyOutcome:
     """Queue the runs that a study misses; asked again, it finds nothing to do."""
-    return study_outcome(launch.fill_study(store, study_id))
+    return study_outcome(launch.fill_study(store, study_id, ZooShelf(settings)))
 
 
 @router.post("/{study_id}/retry", responses=problem_responses(400, 403, 404, 409, 422))

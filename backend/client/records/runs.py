@@ -95,6 +95,8 @@ class PlannedRun:
     reused_run_id: str | None
     """The existing run that serves, if one does."""
     config: dict[str, Any]
+    zoo_success: float | None = None
+    """Measured success of the model of the zoo that serves; None for a run that is trained."""
 
 
 @dataclass(frozen=True, config=RECORD)

@@ -34,6 +34,8 @@ class StudySpec:
     overrides: dict[str, Any] = field(default_factory=dict)
     """Settings laid over the preset in every run, nested."""
     variants: list[Variant] = field(default_factory=list)
+    locomotion: str = "zoo"
+    """Where locomotion models come from: `zoo`, `train`, or ids of locomotion runs, separated by commas."""
 
 
 @dataclass(frozen=True, config=RECORD)

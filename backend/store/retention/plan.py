@@ -111,8 +111,9 @@ def find_protected(conn: Connection, run_ids: Sequence[str] | None = None) -> di
     if run_ids is not None:
         needed = needed.where(run_needs.c.needs_run_id.in_(run_ids))
         kept = kept.where(run_tags.c.run_id.in_(run_ids))
-    found: dict[str, Spared] = dict.fromkeys(conn.execute(needed).scalars(), "needed")
-    return found | dict.fromkeys(conn.execute(kept).scalars(), "kept")
+    found: dict[str, Spared] = {run_id: "needed" for run_id in conn.execute(needed).scalars()}
+    found.update((run_id, "kept") for run_id in conn.execute(kept).scalars())
+    return found
 
 
 def is_old_enough(ended_at: datetime | None, rule: Rule, at: datetime) -> bool:

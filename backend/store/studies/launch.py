@@ -21,6 +21,7 @@ from backend.store.studies.spec import (
     spec_to_dict,
 )
 from backend.store.tables import AnyRow, runs, studies, study_runs
+from backend.store.zoo_runs import ZooShelf
 from sldr_core.errors import InvalidConfig
 
 STUDY_ID_LENGTH = 12
@@ -40,7 +41,9 @@ class Launched:
     """Places that a run from elsewhere serves."""
 
 
-def preview_study(db: Database, spec: StudySpec, study_id: str | None = None) -> StudyPlan:
+def preview_study(
+    db: Database, spec: StudySpec, study_id: str | None = None, shelf: ZooShelf | None = None
+) -> StudyPlan:
     """Return what launching a spec would do, for a new study or for one that is there.
 
     Raises:
@@ -51,10 +54,10 @@ def preview_study(db: Database, spec: StudySpec, study_id: str | None = None) ->
     with db.read() as conn:
         if study_id is not None:
             hold_study(conn, study_id)
-        return plan_study(conn, spec, study_id)
+        return plan_study(conn, spec, study_id, shelf)
 
 
-def create_study(db: Database, name: str, spec: StudySpec, note: str = "") -> Launched:
+def create_study(db: Database, name: str, spec: StudySpec, note: str = "", shelf: ZooShelf | None = None) -> Launched:
     """Make a study and queue the runs that nothing serves yet.
 
     Raises:
@@ -68,13 +71,13 @@ def create_study(db: Database, name: str, spec: StudySpec, note: str = "") -> La
         # Two launches at once must not both find that a run has to be made, or that a name is free.
         take_turn(conn, LAUNCH_TURN)
         _check_name_is_free(conn, name)
-        plan = plan_study(conn, spec)
+        plan = plan_study(conn, spec, shelf=shelf)
         values = {"id": study_id, "name": name, "note": note, "preset": spec.preset, "spec": spec_to_dict(spec)}
         conn.execute(insert(studies).values(**values, created_at=current_time(conn)))
-        return _launch(conn, study_id, plan)
+        return _launch(conn, study_id, plan, shelf)
 
 
-def extend_study(db: Database, study_id: str, addition: Addition) -> Launched:
+def extend_study(db: Database, study_id: str, addition: Addition, shelf: ZooShelf | None = None) -> Launched:
     """Add tasks, methods or seeds to a study, and queue every run that it then misses.
 
     Raises:
@@ -89,12 +92,12 @@ def extend_study(db: Database, study_id: str, addition: Addition) -> Launched:
         longer = extend_spec(spec, addition)
         if longer == spec:
             raise InvalidConfig({"seeds": "the study has all of that already; name a task, method or seed to add."})
-        plan = plan_study(conn, longer, study_id)
+        plan = plan_study(conn, longer, study_id, shelf)
         conn.execute(update(studies).where(studies.c.id == study_id).values(spec=spec_to_dict(longer)))
-        return _launch(conn, study_id, plan)
+        return _launch(conn, study_id, plan, shelf)
 
 
-def fill_study(db: Database, study_id: str) -> Launched:
+def fill_study(db: Database, study_id: str, shelf: ZooShelf | None = None) -> Launched:
     """Queue the runs that a study misses, as those that were deleted; asked again, it finds nothing to do.
 
     Raises:
@@ -105,7 +108,7 @@ def fill_study(db: Database, study_id: str) -> Launched:
     with db.write() as conn:
         take_turn(conn, LAUNCH_TURN)
         spec = spec_from_dict(hold_study(conn, study_id).spec)
-        return _launch(conn, study_id, plan_study(conn, spec, study_id))
+        return _launch(conn, study_id, plan_study(conn, spec, study_id, shelf), shelf)
 
 
 def rename_study(db: Database, study_id: str, name: str | None = None, note: str | None = None) -> None:
@@ -182,9 +185,9 @@ def hold_study(conn: Connection, study_id: str) -> AnyRow:
     return row
 
 
-def _launch(conn: Connection, study_id: str, plan: StudyPlan) -> Launched:
+def _launch(conn: Connection, study_id: str, plan: StudyPlan, shelf: ZooShelf | None) -> Launched:
     """Make the runs that a plan lacks, and put every place's run into the study."""
-    ids = make_runs(conn, plan.runs, current_time(conn))
+    ids = make_runs(conn, plan.runs, current_time(conn), shelf)
     missing = [planned for planned in plan.places if planned.config_hash is not None]
     # A deleted run gives its place to the one that is made in its stead.
     gone = select(runs.c.id).where(runs.c.deleted_at.is_not(None))

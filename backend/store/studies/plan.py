@@ -8,9 +8,11 @@ from enum import StrEnum
 
 from sqlalchemy import Connection, select
 
+from backend.store.locomotion import LocomotionWish
 from backend.store.run_plans import PlannedRun, plan_runs
 from backend.store.studies.spec import Cell, Place, StudySpec, check_spec, make_configs
 from backend.store.tables import runs, study_runs
+from backend.store.zoo_runs import ZooShelf
 from sldr_core.config import config_hash
 
 
@@ -48,8 +50,8 @@ class StudyPlan:
 
     @property
     def new_runs(self) -> list[PlannedRun]:
-        """The runs that would be made."""
-        return [run for run in self.runs if run.reused_run_id is None]
+        """The runs that would be queued; those of the zoo's models have been trained already."""
+        return [run for run in self.runs if run.reused_run_id is None and run.model is None]
 
     @property
     def locomotion(self) -> list[PlannedRun]:
@@ -57,7 +59,9 @@ class StudyPlan:
         return [run for run in self.runs if run.phase == "locomotion"]
 
 
-def plan_study(conn: Connection, spec: StudySpec, study_id: str | None = None) -> StudyPlan:
+def plan_study(
+    conn: Connection, spec: StudySpec, study_id: str | None = None, shelf: ZooShelf | None = None
+) -> StudyPlan:
     """Return what launching a spec would do, for a new study or for one that is there.
 
     Raises:
@@ -67,7 +71,8 @@ def plan_study(conn: Connection, spec: StudySpec, study_id: str | None = None) -
     check_spec(spec)
     members: Mapping[Place, str] = {} if study_id is None else find_members(conn, study_id)
     configs = make_configs(spec, [place for place in spec.places if place not in members])
-    planned = plan_runs(conn, list(configs.values()), spec.preset, share_all=True)
+    wish = LocomotionWish(spec.locomotion, shelf)
+    planned = plan_runs(conn, list(configs.values()), spec.preset, share_all=True, wish=wish)
     by_hash = {run.config_hash: run for run in planned}
     digests = {place: config_hash(config) for place, config in configs.items()}
     places = [

@@ -10,6 +10,7 @@ from typing import Any
 from unicodedata import category
 
 from backend.store.launches import check_overrides
+from backend.store.locomotion import TRAIN
 from sldr_core.config import TASKS, TrainConfig, config_hash, find_method
 from sldr_core.errors import InvalidConfig, UnknownName
 from sldr_core.presets import find_preset, lay_over, make_config
@@ -60,6 +61,8 @@ class StudySpec:
     """Settings laid over the preset in every run, nested."""
     variants: tuple[Variant, ...] = ()
     """The axis of settings; none if only tasks, methods and seeds vary."""
+    locomotion: str = TRAIN
+    """Where the locomotion models come from: `zoo`, `train`, or ids of locomotion runs, separated by commas."""
 
     @property
     def cells(self) -> list[Cell]:
@@ -167,7 +170,14 @@ def spec_from_dict(values: Mapping[str, Any]) -> StudySpec:
     """Return what `spec_to_dict` was given."""
     axes = {name: tuple(values[name]) for name in ("tasks", "methods", "seeds")}
     variants = tuple(Variant(**variant) for variant in values["variants"])
-    return StudySpec(**axes, preset=values["preset"], overrides=values["overrides"], variants=variants)
+    # Studies from before there was a choice have trained their own.
+    return StudySpec(
+        **axes,
+        preset=values["preset"],
+        overrides=values["overrides"],
+        variants=variants,
+        locomotion=values.get("locomotion", TRAIN),
+    )
 
 
 def _make_config(preset: str, place: Place, overrides: dict[str, Any]) -> TrainConfig:

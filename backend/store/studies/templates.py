@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from backend.store.locomotion import ZOO
 from backend.store.studies.spec import StudySpec
 from sldr_core.config import METHODS
 
@@ -50,12 +51,13 @@ TWO_MINUTES = StudySpec(
         "replay": {"capacity": 60_000},
         "sldr": {"gate": 0.0},
     },
+    locomotion=ZOO,
 )
 """Six short trainings and the locomotion run that they share: enough to see every page filled, not to learn much."""
 
 
 def _paper(name: str, title: str, summary: str, tasks: tuple[str, ...]) -> Template:
-    return Template(name, title, summary, StudySpec(tasks, tuple(METHODS), PAPER_SEEDS, "paper"))
+    return Template(name, title, summary, StudySpec(tasks, tuple(METHODS), PAPER_SEEDS, "paper", locomotion=ZOO))
 
 
 TEMPLATES: dict[str, Template] = {

@@ -12,8 +12,8 @@ beforeEach(() => {
     .on('POST /api/launches/plan', () => ({
       body: {
         runs: [
-          { ...PLANNED, phase: 'locomotion', method: 'her', reused_run_id: null },
-          { ...PLANNED, phase: 'manipulation', reused_run_id: null },
+          { ...PLANNED, phase: 'locomotion', method: 'her', reused_run_id: null, zoo_success: null },
+          { ...PLANNED, phase: 'manipulation', reused_run_id: null, zoo_success: null },
         ],
       },
     }))
@@ -28,12 +28,39 @@ test('the plan says that the locomotion run comes first', async () => {
   expect(within(plan).getByText('added first: the robot learns from its model')).toBeTruthy();
 });
 
+test('a model of the zoo is told with its measured success, and is not queued', async () => {
+  server.on('POST /api/launches/plan', () => ({
+    body: {
+      runs: [
+        { ...PLANNED, phase: 'locomotion', method: 'her', reused_run_id: null, zoo_success: 0.987 },
+        { ...PLANNED, phase: 'manipulation', reused_run_id: null, zoo_success: null },
+      ],
+    },
+  }));
+  const { user } = openPage('/launch');
+  const plan = await screen.findByRole('complementary', { name: 'What will be queued' });
+  expect(await within(plan).findByText('1 run')).toBeTruthy();
+  expect(within(plan).getByText(/from the zoo: 98.7\s%/)).toBeTruthy();
+  await user.click(screen.getByRole('radio', { name: /^train/ }));
+  await waitFor(() =>
+    expect(server.bodiesOf('POST', '/api/launches/plan').at(-1)).toMatchObject({ locomotion: 'train' }),
+  );
+});
+
 test('launching sends the choices and leads to the run', async () => {
   const { user, router } = openPage('/launch');
   await user.click(await screen.findByRole('button', { name: 'Launch 2 runs' }));
   await waitFor(() => expect(router.state.location.pathname).toBe('/runs/run-1'));
   expect(server.bodiesOf('POST', '/api/launches')).toEqual([
-    { task: 'FetchPush', phase: 'manipulation', method: 'her-sldr', preset: 'quick', seeds: [0], overrides: {} },
+    {
+      task: 'FetchPush',
+      phase: 'manipulation',
+      method: 'her-sldr',
+      preset: 'quick',
+      seeds: [0],
+      overrides: {},
+      locomotion: 'zoo',
+    },
   ]);
 });
 

@@ -139,3 +139,14 @@ test('a thing is told of once, and of another occasion again', () => {
   expect(untold([NOTICE], told)).toEqual([NOTICE]);
   expect(untold([NOTICE, { ...NOTICE, occasion: '2' }], told)).toEqual([{ ...NOTICE, occasion: '2' }]);
 });
+
+test('whoever may change nothing is offered nothing, and asks for nothing that is refused', async () => {
+  const caller = { name: 'vera', role: 'viewer', has_account: true };
+  server.on('GET /api/auth/me', () => ({ body: { mode: 'accounts', caller, message: null } }));
+  openPage('/settings');
+  expect(await screen.findByText('3 GB would be removed')).toBeTruthy();
+  expect(screen.getByText('Only an admin may change them.')).toBeTruthy();
+  expect(screen.queryByRole('button', { name: 'Add' })).toBeNull();
+  expect(screen.queryByRole('button', { name: 'Remove …' })).toBeNull();
+  expect(server.asked.some((asked) => asked.path === '/api/webhooks')).toBe(false);
+});

@@ -26,6 +26,15 @@ test('without studies, the page says what to do and offers two minutes', async (
   ]);
 });
 
+test('a sample study that comes with the product is opened with one click', async () => {
+  server.on('GET /api/studies', () => ({ body: { studies: [] } }));
+  server.on('GET /api/study-files/sample', () => ({ body: { size: 9_000_000 } }));
+  server.on('POST /api/study-files/sample', () => ({ body: { study_id: 'study-1', runs: 40, already_there: false } }));
+  const { user, router } = openPage('/studies');
+  await user.click(await screen.findByRole('button', { name: 'Open the sample study' }));
+  await waitFor(() => expect(router.state.location.pathname).toBe('/studies/study-1'));
+});
+
 test('without runs, the runs page offers the same', async () => {
   server.on('POST /api/studies', () => problem(409, null, 'There is a study called so already.'));
   const { user } = openPage('/');

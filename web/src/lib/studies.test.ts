@@ -1,7 +1,13 @@
 import { expect, test } from 'vitest';
 import { columnsOf, countedStates, describeAxes, leadingState } from './studies';
 
-const SPEC = { tasks: ['FetchPush'], methods: ['her', 'her-sldr'], seeds: [0, 1, 2], preset: 'quick' };
+const SPEC = {
+  tasks: ['FetchPush'],
+  methods: ['her', 'her-sldr'],
+  seeds: [0, 1, 2],
+  preset: 'quick',
+  locomotion: 'zoo',
+};
 const VARIANTS = ['a', 'b'].map((name) => ({ name, overrides: {} }));
 
 test('the axes are told with their lengths, variants only where there are some', () => {

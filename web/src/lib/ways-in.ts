@@ -9,6 +9,7 @@ export function launchCommand(launch: Launch, server: string): string {
     ...[`--server ${quoted(server)}`, `--task ${quoted(launch.task)}`, `--method ${quoted(launch.method)}`],
     ...(launch.phase === 'locomotion' ? ['--phase locomotion'] : []),
     ...[`--seeds ${seedWords(launch.seeds)}`, `--preset ${quoted(launch.preset)}`],
+    ...(launch.locomotion === 'zoo' ? [] : [`--locomotion ${quoted(launch.locomotion)}`]),
     ...settingOptions(launch.overrides ?? {}),
   ]);
 }
@@ -24,6 +25,7 @@ export function launchScript(launch: Launch, server: string): string {
       ['seeds', launch.seeds],
       ['preset', launch.preset],
       ...(launch.phase === 'locomotion' ? [['phase', launch.phase] as const] : []),
+      ...(launch.locomotion === 'zoo' ? [] : [['locomotion', launch.locomotion] as const]),
       ...settingWords(launch.overrides ?? {}),
     ],
     ['for run in runs:', '    print(run.id, run.state)', '# client.runs.wait(runs) waits for their end.'],
@@ -37,6 +39,7 @@ export function studyCommand(name: string, spec: StudySpec, server: string): str
     ...spec.tasks.map((task) => `--task ${quoted(task)}`),
     ...spec.methods.map((method) => `--method ${quoted(method)}`),
     ...[`--seeds ${seedWords(spec.seeds)}`, `--preset ${quoted(spec.preset)}`],
+    ...(spec.locomotion === 'zoo' ? [] : [`--locomotion ${quoted(spec.locomotion)}`]),
     ...settingOptions(spec.overrides ?? {}),
     ...(spec.variants ?? []).map(
       (variant) => `--variant ${quoted(variant.name)} ${quoted(JSON.stringify(variant.overrides))}`,
@@ -57,6 +60,7 @@ export function studyScript(name: string, spec: StudySpec, server: string): stri
       ['seeds', spec.seeds],
       ['preset', spec.preset],
       ...settingWords(spec.overrides ?? {}),
+      ...(spec.locomotion === 'zoo' ? [] : [['locomotion', spec.locomotion] as const]),
       ...(Object.keys(variants).length > 0 ? [['variants', variants] as const] : []),
     ],
     ['print(study.study_id, study.queued)', '# client.studies.wait(study) waits for its end.'],

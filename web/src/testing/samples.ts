@@ -139,6 +139,7 @@ export const TEMPLATE: StudyTemplate = {
     preset: 'quick',
     overrides: { loop: { epochs: 5 } },
     variants: [],
+    locomotion: 'zoo',
   },
 };
 

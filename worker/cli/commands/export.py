@@ -23,6 +23,7 @@ from backend.store.compared_runs import RunChoice, find_compared_runs, read_conf
 from backend.store.database import Database, open_database
 from backend.store.runs import get_runs
 from backend.store.settings import load_settings
+from backend.store.study_files.packing import pack_study
 from sldr_core.config import Phase
 from sldr_core.errors import InvalidConfig, UnknownName
 from worker.cli.commands.export_from_server import (
@@ -34,6 +35,7 @@ from worker.cli.commands.export_from_server import (
 )
 from worker.cli.commands.export_rerun import export_rerun
 from worker.cli.service import Server
+from worker.cli.study_source import open_source
 from worker.exports.exported_run import ExportedRun, load_exported
 
 FIGURES = ("svg", "pdf", "png", "csv", "tex")
@@ -56,6 +58,8 @@ class Chosen:
     """Only runs of the study with this id."""
     phase: Phase = "manipulation"
     """Which training."""
+    study_file: Annotated[Path | None, tyro.conf.arg(metavar="FILE", help_behavior_hint="")] = None
+    """Take the runs of this study file instead; "sample" is the one that comes with the product."""
     server: Server = None
     """The service that has them, as http://127.0.0.1:8000 (default: SLDR_URL, else the store of this machine)."""
 
@@ -104,11 +108,13 @@ View = tyro.conf.OmitArgPrefixes[Shown]
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Run the command; `--rerun RUN OUT` is short for `rerun RUN OUT`."""
-    given = ["rerun", *arguments[1:]] if arguments[:1] == ["--rerun"] else list(arguments)
+    """Run the command; `--rerun RUN OUT` and `--study ID OUT` may be written with dashes, too."""
+    is_dashed = arguments[:1] in (["--rerun"], ["--study"])
+    given = [arguments[0].lstrip("-"), *arguments[1:]] if is_dashed else list(arguments)
     kinds: dict[str, Callable[..., int]] = {
         "figure": figure,
         "bundle": bundle,
+        "study": study,
         "rerun": rerun,
         "tensorboard": tensorboard,
         "mlflow": mlflow,
@@ -128,11 +134,11 @@ def figure(out: Path, runs: Runs, view: View, kind: Literal["curves", "best"] = 
     form = out.suffix.removeprefix(".")
     if form not in FIGURES:
         raise UnknownName("kind of figure", form, FIGURES)
-    if (server := find_named_server(runs.server)) is not None:
+    if runs.study_file is None and (server := find_named_server(runs.server)) is not None:
         _check_place(out)
         fetch_figure(server, out, kind, runs.question() | view.question())
         return _tell(out)
-    with closing(open_database(load_settings())) as db:
+    with open_source(runs.study_file) as db:
         memory = ComparisonMemory()
         compare = compare_curves if kind == "curves" else compare_best
         content = compare(db, memory, runs.choice(), view.view())
@@ -148,17 +154,33 @@ def bundle(out: Path, runs: Runs, view: View, anonymous: bool = False) -> int:
         view: How they are shown.
         anonymous: Leave out what tells who made it, and where.
     """
-    if (server := find_named_server(runs.server)) is not None:
+    if runs.study_file is None and (server := find_named_server(runs.server)) is not None:
         _check_place(out)
         fetch_bundle(server, out, anonymous, runs.question() | view.question())
         return _tell(out)
-    with closing(open_database(load_settings())) as db:
+    with open_source(runs.study_file) as db:
         memory, choice, shown = ComparisonMemory(), runs.choice(), view.view()
         curves = compare_curves(db, memory, choice, shown)
         best = compare_best(db, memory, choice, shown)
         ids = [member.run_id for panel in curves.panels for curve in panel.curves for member in curve.members]
         parts = Bundle(curves, best, read_configs(db, ids), anonymous, view.width)
     return _write(out, make_bundle(parts))
+
+
+def study(study: tyro.conf.Positional[str], out: tyro.conf.Positional[Path]) -> int:
+    """Pack a study into one file that `sldr import` takes in elsewhere: curves, configs, policies, a few episodes.
+
+    Args:
+        study: The id of the study.
+        out: The .zip file to write.
+    """
+    _check_place(out)
+    settings = load_settings()
+    with closing(open_database(settings)) as db:
+        packed = pack_study(db, settings, study, out)
+    left_out = f", {packed.left_out} places without a run that has succeeded left out" if packed.left_out else ""
+    print(f"{out}: {packed.runs} runs, {packed.size / 1e6:.1f} MB{left_out}")
+    return 0
 
 
 def rerun(run: tyro.conf.Positional[str], out: tyro.conf.Positional[Path], server: Server = None) -> int:
@@ -206,10 +228,10 @@ def mlflow(uri: Annotated[str, tyro.conf.arg(metavar="URI")], runs: Runs) -> int
 
 
 def _exported(runs: Chosen) -> Iterator[ExportedRun]:
-    if (server := find_named_server(runs.server)) is not None:
+    if runs.study_file is None and (server := find_named_server(runs.server)) is not None:
         yield from fetch_exported(server, runs.question())
         return
-    with closing(open_database(load_settings())) as db:
+    with open_source(runs.study_file) as db:
         for row in get_runs(db, _ids(db, runs)):
             yield load_exported(db, row)
 

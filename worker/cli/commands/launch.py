@@ -52,6 +52,8 @@ class Arguments:
     """Begin with a study that comes with the product: paper, paper-fetch ...; other options then change it."""
     variant: Annotated[tyro.conf.UseAppendAction[tuple[tuple[str, str], ...]], tyro.conf.arg(metavar="NAME JSON")] = ()
     """Settings of a study that are tried beside others: a name, then JSON such as {"loop": {"batch_size": 256}}."""
+    locomotion: Annotated[str, tyro.conf.arg(metavar="zoo|train|RUN,...")] = "zoo"
+    """Where locomotion models come from: the zoo where it has them, all trained here, or these locomotion runs."""
     dry_run: bool = False
     """Say what would be queued, and queue nothing."""
     wait: bool = False
@@ -78,7 +80,8 @@ def main(arguments: Sequence[str]) -> int:
 def _launch(service: Service, order: Order, dry_run: bool) -> list[str]:
     plan = service.plan(order)
     for planned in plan:
-        standing = "new" if planned.reused_run_id is None else "reused"
+        new = "new" if planned.zoo_success is None else "zoo"
+        standing = new if planned.reused_run_id is None else "reused"
         print(f"{standing:8} {planned.task:18} {planned.phase:13} {planned.method:10} seed {planned.seed}")
     if dry_run:
         return []
@@ -126,6 +129,7 @@ def _order(given: Arguments) -> Order:
         seeds=parse_seeds(given.seeds or "0"),
         preset=given.preset or "quick",
         settings=parse_settings(given.settings),
+        locomotion=given.locomotion,
     )
 
 
@@ -141,6 +145,7 @@ def _study(given: Arguments) -> tuple[str, StudySpec]:
         "seeds": None if given.seeds is None else list(parse_seeds(given.seeds)),
         "preset": given.preset,
         "overrides": parse_settings(given.settings),
+        "locomotion": given.locomotion,
         "variants": [_variant(name, overrides) for name, overrides in given.variant],
     }
     name = given.study or (template.title if template else "")

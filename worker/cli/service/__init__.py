@@ -32,6 +32,8 @@ class Order:
     preset: str
     settings: Mapping[str, Any] = field(default_factory=dict)
     """Settings laid over the preset, nested."""
+    locomotion: str = "zoo"
+    """Where locomotion models come from: `zoo`, `train`, or ids of locomotion runs, separated by commas."""
 
 
 @dataclass(frozen=True)

@@ -47,5 +47,8 @@ class ServerService:
         return self._client.runs.page(limit, **asdict(wanted))
 
 
+WORDS = ("task", "phase", "method", "seeds", "preset")
+
+
 def _words(order: Order) -> dict[str, Any]:
-    return {name: getattr(order, name) for name in ("task", "phase", "method", "seeds", "preset", "settings")}
+    return {name: getattr(order, name) for name in (*WORDS, "settings", "locomotion")}

@@ -29,6 +29,7 @@ from backend.store.studies.estimate import estimate_study
 from backend.store.studies.matrix import get_study
 from backend.store.studies.spec import StudySpec as StoredSpec
 from backend.store.studies.spec import Variant
+from backend.store.zoo_runs import ZooShelf
 from sldr_core.config import config_to_dict
 from worker.cli.service import Order, Wanted
 
@@ -40,9 +41,10 @@ def open_store_service() -> Iterator[StoreService]:
     Raises:
         SldrError: it cannot be opened.
     """
-    db = open_database(load_settings())
+    settings = load_settings()
+    db = open_database(settings)
     try:
-        yield StoreService(db)
+        yield StoreService(db, ZooShelf(settings))
     finally:
         db.close()
 
@@ -50,24 +52,22 @@ def open_store_service() -> Iterator[StoreService]:
 class StoreService:
     """Ask the store; see `Service`."""
 
-    def __init__(self, db: Database) -> None:
+    def __init__(self, db: Database, shelf: ZooShelf | None = None) -> None:
         self._db = db
+        self._shelf = shelf
 
     def plan(self, order: Order) -> list[PlannedRun]:
         """Return what a launch would queue and share, locomotion first."""
-        return [
-            PlannedRun(run.task, run.phase, run.method, run.seed, run.reused_run_id, config_to_dict(run.config))
-            for run in launches.plan_launch(self._db, _launch_order(order))
-        ]
+        return [_planned(run) for run in launches.plan_launch(self._db, _launch_order(order), self._shelf)]
 
     def launch(self, order: Order) -> list[Run]:
         """Queue the runs of an order; return them and those that serve, as planned."""
-        ids = launches.launch(self._db, _launch_order(order))
+        ids = launches.launch(self._db, _launch_order(order), self._shelf)
         return [run_record(row) for row in runs.get_runs(self._db, ids)]
 
     def preview_study(self, spec: StudySpec) -> StudyPreview:
         """Return what launching a study would do and cost."""
-        plan = study_launch.preview_study(self._db, _stored_spec(spec))
+        plan = study_launch.preview_study(self._db, _stored_spec(spec), shelf=self._shelf)
         return StudyPreview(
             places=[
                 PlannedPlace(**asdict(at.place.cell), seed=at.place.seed, standing=at.standing.value, run_id=at.run_id)
@@ -80,7 +80,7 @@ class StoreService:
 
     def create_study(self, name: str, spec: StudySpec) -> StudyOutcome:
         """Make a study and queue what nothing serves yet."""
-        launched = study_launch.create_study(self._db, name, _stored_spec(spec))
+        launched = study_launch.create_study(self._db, name, _stored_spec(spec), shelf=self._shelf)
         return StudyOutcome(launched.study_id, launched.queued, launched.joined)
 
     def study_run_ids(self, study_id: str) -> list[str]:
@@ -112,7 +112,21 @@ def run_record(row: RunRow) -> RunDetail:
 
 
 def _launch_order(order: Order) -> LaunchOrder:
-    return LaunchOrder(order.task, order.phase, order.method, order.seeds, order.preset, order.settings)
+    return LaunchOrder(
+        order.task, order.phase, order.method, order.seeds, order.preset, order.settings, order.locomotion
+    )
+
+
+def _planned(run: launches.PlannedRun) -> PlannedRun:
+    return PlannedRun(
+        task=run.task,
+        phase=run.phase,
+        method=run.method,
+        seed=run.seed,
+        reused_run_id=run.reused_run_id,
+        config=config_to_dict(run.config),
+        zoo_success=None if run.model is None else run.model.measured.success_rate,
+    )
 
 
 def _stored_spec(spec: StudySpec) -> StoredSpec:
@@ -123,6 +137,7 @@ def _stored_spec(spec: StudySpec) -> StoredSpec:
         preset=spec.preset,
         overrides=spec.overrides,
         variants=tuple(Variant(variant.name, variant.overrides) for variant in spec.variants),
+        locomotion=spec.locomotion,
     )
 
 

@@ -6,6 +6,8 @@ export interface LaunchSearch {
   readonly method?: string;
   readonly preset?: string;
   readonly seeds?: string;
+  /** `zoo`, `train`, or ids of locomotion runs. */
+  readonly locomotion?: string;
 }
 
 /** Read the choices from an address; what makes no sense is left out. */
@@ -20,6 +22,7 @@ export function readLaunchSearch(raw: Record<string, unknown>): LaunchSearch {
     phase: phase === 'locomotion' || phase === 'manipulation' ? phase : undefined,
     method: text('method'),
     preset: text('preset'),
+    locomotion: text('locomotion'),
     // An empty field stays empty: the form says that a seed is missing.
     seeds: raw.seeds === undefined ? undefined : String(raw.seeds ?? ''),
   };

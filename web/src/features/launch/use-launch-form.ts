@@ -13,7 +13,7 @@ import type { LaunchSearch } from './search';
 /** Rest after the last change before the plan is asked for [ms]. */
 const REST_MS = 250;
 
-const CHOICE_FIELDS = ['task', 'phase', 'method', 'preset', 'seeds'];
+const CHOICE_FIELDS = ['task', 'phase', 'method', 'preset', 'seeds', 'locomotion'];
 
 /** Every choice made, by the person or by default. */
 export type Chosen = Required<LaunchSearch>;
@@ -36,6 +36,7 @@ export function fillChoices(search: LaunchSearch, choices: Choices): Chosen {
         choices.presets.map((preset) => preset.name),
       ),
     seeds: search.seeds ?? '0',
+    locomotion: search.locomotion ?? 'zoo',
   };
 }
 
@@ -54,7 +55,7 @@ export function useLaunchForm(search: LaunchSearch, choices: Choices) {
   const isReadable = seeds.problem === undefined && Object.keys(overrides.problems).length === 0;
   const launch: Launch | null =
     isReadable && defaults.data
-      ? { task, phase, method, preset, seeds: seeds.seeds, overrides: overrides.values }
+      ? { task, phase, method, preset, seeds: seeds.seeds, overrides: overrides.values, locomotion: chosen.locomotion }
       : null;
   // The plan belongs to the launch that rested, so a hasty click never launches what was not shown.
   const [resting] = useDebouncedValue(JSON.stringify(launch), REST_MS);

@@ -65,6 +65,7 @@ function beginWith(
     tasks: choices.tasks.slice(0, 1).map(({ name }) => name),
     methods: ['her', 'her-sldr'].filter((name) => known.includes(name)),
     seeds: '0-2',
+    locomotion: 'zoo',
     preset: choices.presets.some(({ name }) => name === 'quick') ? 'quick' : (choices.presets[0]?.name ?? ''),
     rows: [],
     variants: [],

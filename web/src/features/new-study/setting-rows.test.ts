@@ -4,7 +4,7 @@ import { CONFIG_SCHEMA } from '@/testing/samples';
 import { readRows, rowsOf } from './setting-rows';
 
 const GROUPS = readSettingGroups(CONFIG_SCHEMA);
-const SPEC = { tasks: ['FetchPush'], methods: ['her'], seeds: [0], preset: 'quick' };
+const SPEC = { tasks: ['FetchPush'], methods: ['her'], seeds: [0], preset: 'quick', locomotion: 'zoo' };
 
 test('one value is set in every run, several are compared', () => {
   const rows = [

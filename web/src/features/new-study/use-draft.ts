@@ -20,6 +20,8 @@ export interface Draft {
   readonly methods: readonly string[];
   readonly seeds: string;
   readonly preset: string;
+  /** `zoo`, `train`, or ids of locomotion runs. */
+  readonly locomotion: string;
   readonly rows: readonly SettingRow[];
   /** Variants that came with a template or a cloned study and that no row can say. */
   readonly variants: StudySpec['variants'];
@@ -34,6 +36,7 @@ export function draftOf(spec: StudySpec, name = ''): Draft {
     methods: spec.methods,
     seeds: seedText(spec.seeds),
     preset: spec.preset,
+    locomotion: spec.locomotion,
   };
 }
 
@@ -55,6 +58,7 @@ export function useDraft(begin: Draft, choices: Choices) {
         methods: inOrder(draft.methods, choices.methods),
         seeds: seeds.seeds,
         preset: draft.preset,
+        locomotion: draft.locomotion,
         overrides: settings.overrides,
         variants: settings.variants.length > 0 ? settings.variants : (draft.variants ?? []),
       }

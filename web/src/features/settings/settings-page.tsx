@@ -1,10 +1,14 @@
 /** How one hears of what has happened, and how room is made on the disk. */
+import { useQuery } from '@tanstack/react-query';
+import { meQuery } from '@/lib/access';
 import { DesktopNotices } from './components/desktop-notices';
 import { RetentionSection } from './components/retention-section';
 import classes from './components/settings.module.css';
 import { WebhooksSection } from './components/webhooks-section';
 
 export function SettingsPage() {
+  const { data } = useQuery(meQuery);
+  const role = data?.caller?.role;
   return (
     <>
       <title>Settings · SLDR</title>
@@ -13,8 +17,8 @@ export function SettingsPage() {
       </div>
       <div className={classes.sections}>
         <DesktopNotices />
-        <WebhooksSection />
-        <RetentionSection />
+        {role && <WebhooksSection role={role} />}
+        {role && <RetentionSection role={role} />}
       </div>
     </>
   );

@@ -4,6 +4,7 @@ import { getRouteApi } from '@tanstack/react-router';
 import { AnchorLink, ButtonLink } from '@/components/anchor-link';
 import { Freshness } from '@/components/freshness';
 import { Icon } from '@/components/icon';
+import { OpenSample } from '@/components/open-sample';
 import { SampleStudy } from '@/components/sample-study';
 import { SentencePanel } from '@/components/sentence-panel';
 import { sentence } from '@/lib/api';
@@ -59,6 +60,7 @@ function NoStudies() {
           <ButtonLink to="/studies/new" size="lg" variant="default">
             Choose what to compare
           </ButtonLink>
+          <OpenSample />
           <SampleStudy />
         </>
       }

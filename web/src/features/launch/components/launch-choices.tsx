@@ -2,6 +2,7 @@
 import { Chip, Group, TextInput } from '@mantine/core';
 import type { Choices } from '@/client/schema.gen';
 import { ChoiceCards } from '@/components/choice-cards';
+import { LocomotionChoice } from '@/components/locomotion-choice';
 import { formatName } from '@/lib/format';
 import type { LaunchSearch } from '../search';
 import type { Chosen } from '../use-launch-form';
@@ -24,6 +25,7 @@ interface Props {
 }
 
 export function LaunchChoices({ choices, chosen, problems, onChoose }: Props) {
+  const method = choices.methods.find(({ name }) => name === chosen.method);
   return (
     <>
       <ChoiceCards
@@ -72,6 +74,13 @@ export function LaunchChoices({ choices, chosen, problems, onChoose }: Props) {
         onChange={(preset) => onChoose({ preset })}
         cards={choices.presets.map((preset) => ({ value: preset.name, title: preset.name, summary: preset.summary }))}
       />
+      {chosen.phase === 'manipulation' && method?.needs_locomotion && (
+        <LocomotionChoice
+          value={chosen.locomotion}
+          problem={problems.locomotion}
+          onChange={(locomotion) => onChoose({ locomotion })}
+        />
+      )}
       <div>
         <div className={classes.seeds}>
           <TextInput

@@ -4,7 +4,7 @@ import type { LaunchPlan, PlannedRun } from '@/client/schema.gen';
 import { AnchorLink } from '@/components/anchor-link';
 import { Icon } from '@/components/icon';
 import { WaysIn } from '@/components/ways-in';
-import { formatPlural } from '@/lib/format';
+import { formatPlural, formatShare } from '@/lib/format';
 import { launchCommand, launchScript } from '@/lib/ways-in';
 import type { LaunchForm } from '../use-launch-form';
 import classes from './launch.module.css';
@@ -22,7 +22,7 @@ interface Props {
 
 export function LaunchPlanPanel({ form, problems, fieldProblems, isLaunching }: Props) {
   const { plan, isPlanning } = form;
-  const added = plan?.runs.filter((run) => run.reused_run_id === null).length;
+  const added = plan?.runs.filter(isTrained).length;
   return (
     <aside className={`card ${classes.plan}`} aria-label="What will be queued">
       <h2 className={classes.planTitle}>What will be queued</h2>
@@ -64,12 +64,14 @@ export function LaunchPlanPanel({ form, problems, fieldProblems, isLaunching }: 
 
 function Plan({ plan }: { plan: LaunchPlan }) {
   const reused = plan.runs.filter((run) => run.reused_run_id !== null).length;
-  const added = plan.runs.length - reused;
+  const added = plan.runs.filter(isTrained).length;
+  const shipped = plan.runs.length - reused - added;
   const rows = plan.runs.slice(0, MOST_ROWS);
   return (
     <>
       <p className={classes.planSum}>
-        <b>{formatPlural(added, 'run')}</b> will be queued{reused > 0 && `, ${formatPlural(reused, 'run')} reused`}.
+        <b>{formatPlural(added, 'run')}</b> will be queued{reused > 0 && `, ${formatPlural(reused, 'run')} reused`}
+        {shipped > 0 && `, ${formatPlural(shipped, 'model')} taken from the zoo`}.
       </p>
       <ol className={classes.planRows}>
         {rows.map((run) => (
@@ -86,7 +88,7 @@ function Plan({ plan }: { plan: LaunchPlan }) {
 function PlanRow({ run, isNeeded }: { run: PlannedRun; isNeeded: boolean }) {
   return (
     <>
-      <Icon name={run.reused_run_id === null ? 'launch' : 'succeeded'} size={14} />
+      <Icon name={isTrained(run) ? 'launch' : 'succeeded'} size={14} />
       <span>
         <b>{run.phase}</b>, {run.method}, seed {run.seed}
         <span className={classes.planNote}>
@@ -97,6 +99,8 @@ function PlanRow({ run, isNeeded }: { run: PlannedRun; isNeeded: boolean }) {
                 see the run
               </AnchorLink>
             </>
+          ) : run.zoo_success !== null ? (
+            `from the zoo: ${formatShare(run.zoo_success, 1)} test success`
           ) : isNeeded ? (
             'added first: the robot learns from its model'
           ) : (
@@ -106,6 +110,11 @@ function PlanRow({ run, isNeeded }: { run: PlannedRun; isNeeded: boolean }) {
       </span>
     </>
   );
+}
+
+/** Whether a worker will train it. */
+function isTrained(run: PlannedRun): boolean {
+  return run.reused_run_id === null && run.zoo_success === null;
 }
 
 function needs(run: PlannedRun, other: PlannedRun): boolean {

@@ -2,6 +2,7 @@
 import { getRouteApi } from '@tanstack/react-router';
 import type { Choices, StudyTemplate } from '@/client/schema.gen';
 import { ChoiceCards } from '@/components/choice-cards';
+import { LocomotionChoice } from '@/components/locomotion-choice';
 import { useLaunchStudy } from '@/lib/use-launch-study';
 import { type Draft, draftOf, useDraft } from '../use-draft';
 import classes from './builder.module.css';
@@ -70,6 +71,9 @@ export function Builder({ choices, templates, begin }: Props) {
           onChange={(preset) => choose({ preset })}
           cards={choices.presets.map(({ name, summary }) => ({ value: name, title: name, summary }))}
         />
+        {draft.methods.some((name) => choices.methods.find((method) => method.name === name)?.needs_locomotion) && (
+          <LocomotionChoice value={draft.locomotion} onChange={(locomotion) => choose({ locomotion })} />
+        )}
         <SettingRows form={form} onChange={choose} />
         {form.spec && form.preview && <PreviewMatrix spec={form.spec} preview={form.preview} />}
       </div>

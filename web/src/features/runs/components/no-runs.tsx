@@ -1,5 +1,6 @@
 /** What stands in place of the table when no run passes the filters. */
 import { ButtonLink } from '@/components/anchor-link';
+import { OpenSample } from '@/components/open-sample';
 import { SampleStudy } from '@/components/sample-study';
 import { SentencePanel } from '@/components/sentence-panel';
 import { isNarrowed, type RunsSearch } from '../search';
@@ -39,6 +40,7 @@ export function NoRuns({ search }: { search: RunsSearch }) {
           <ButtonLink to="/launch" size="lg" variant="default">
             Launch the first run
           </ButtonLink>
+          <OpenSample />
           <SampleStudy />
         </>
       }

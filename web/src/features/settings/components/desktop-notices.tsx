@@ -1,8 +1,8 @@
 /** Whether this browser shows a notification when a study ends or a run fails. */
 import { Switch } from '@mantine/core';
 import { useState } from 'react';
+import { CardSection } from '@/components/card-section';
 import { canNotify, useNoticesWanted } from '@/components/desktop-notices';
-import classes from './settings.module.css';
 
 export function DesktopNotices() {
   const [isWanted, want] = useNoticesWanted();
@@ -13,8 +13,7 @@ export function DesktopNotices() {
     want(wanted && permission === 'granted');
   };
   return (
-    <section className={`card ${classes.section}`} aria-labelledby="desktop-notices">
-      <h2 id="desktop-notices">Notifications of this browser</h2>
+    <CardSection title="Notifications of this browser">
       {canNotify() ? (
         <Switch
           label="Show a notification when a study ends or a run fails"
@@ -28,6 +27,6 @@ export function DesktopNotices() {
       {isDenied && (
         <p className="problem">The browser forbids it; allow notifications for this page in its settings.</p>
       )}
-    </section>
+    </CardSection>
   );
 }

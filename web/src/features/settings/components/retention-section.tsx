@@ -4,7 +4,9 @@ import { useDebouncedValue, useDisclosure } from '@mantine/hooks';
 import { useQuery } from '@tanstack/react-query';
 import { useState } from 'react';
 import type { Removable } from '@/client/schema.gen';
+import { CardSection } from '@/components/card-section';
 import { useToast } from '@/components/toasts';
+import { allows, type Role } from '@/lib/access';
 import { sentence } from '@/lib/api';
 import { formatPlural, formatSize } from '@/lib/format';
 import { retentionQuery, useApplyRetention } from '../api/retention';
@@ -17,7 +19,7 @@ const REST_MS = 250;
 /** Days that a rule may spare runs for. */
 const LONGEST_DAYS = 3650;
 
-export function RetentionSection() {
+export function RetentionSection({ role }: { role: Role }) {
   const [kinds, setKinds] = useState<Removable[]>(['replay']);
   const [days, setDays] = useState<number>(30);
   const [rule] = useDebouncedValue({ kinds, older_than_days: days }, REST_MS);
@@ -34,12 +36,7 @@ export function RetentionSection() {
       onSettled: asking.close,
     });
   return (
-    <section className={`card ${classes.section}`} aria-labelledby="retention">
-      <h2 id="retention">Make room</h2>
-      <p className="faint">
-        Results stay: metrics, logs, newest and best policies, locomotion models. Runs tagged <code>keep</code> or{' '}
-        <code>starred</code> and runs that others learn from lose nothing.
-      </p>
+    <CardSection title="Make room" note={<StayingNote />}>
       <fieldset className={classes.kinds}>
         <legend className="hidden">What may go</legend>
         {KINDS.map(({ kind, label, summary }) => (
@@ -65,11 +62,15 @@ export function RetentionSection() {
       />
       {error && <p className="problem">{sentence(error)}</p>}
       {kinds.length > 0 && preview && <RetentionPreviewTable preview={preview} days={rule.older_than_days} />}
-      <div>
-        <Button color="red" disabled={!preview?.total_runs || kinds.length === 0 || !isFresh} onClick={asking.open}>
-          Remove …
-        </Button>
-      </div>
+      {allows(role, 'admin') ? (
+        <div>
+          <Button color="red" disabled={!preview?.total_runs || kinds.length === 0 || !isFresh} onClick={asking.open}>
+            Remove …
+          </Button>
+        </div>
+      ) : (
+        <p className="faint">Only an admin may remove them.</p>
+      )}
       <Modal opened={isAsking} onClose={asking.close} title="Remove these files?">
         <p>
           {preview &&
@@ -84,6 +85,15 @@ export function RetentionSection() {
           </Button>
         </div>
       </Modal>
-    </section>
+    </CardSection>
+  );
+}
+
+function StayingNote() {
+  return (
+    <>
+      Results stay: metrics, logs, newest and best policies, locomotion models. Runs tagged <code>keep</code> or{' '}
+      <code>starred</code> and runs that others learn from lose nothing.
+    </>
   );
 }

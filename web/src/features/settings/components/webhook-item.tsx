@@ -12,36 +12,13 @@ const SHOWN = 5;
 
 const EVENT_WORDS = { study_ended: 'a study has ended', run_failed: 'a run has failed', test: 'test' } as const;
 
-export function WebhookItem({ webhook }: { webhook: Webhook }) {
-  const toast = useToast();
-  const removing = useRemoveWebhook();
-  const testing = useTestWebhook();
-  const onError = (error: Error): void => toast({ text: sentence(error), isProblem: true });
+export function WebhookItem({ webhook, mayChange }: { webhook: Webhook; mayChange: boolean }) {
   const told = webhook.events.map((event) => EVENT_WORDS[event as keyof typeof EVENT_WORDS] ?? event);
   return (
     <li className={classes.webhook}>
       <span className={`mono ${classes.url}`}>{webhook.url}</span>
       <span className="faint">Told when {told.join(' or ')}.</span>
-      <span className={classes.row}>
-        <Button
-          size="xs"
-          variant="light"
-          loading={testing.isPending}
-          aria-label={`Send a test to ${webhook.url}`}
-          onClick={() => testing.mutate(webhook.id, { onError })}
-        >
-          Send a test
-        </Button>
-        <Button
-          size="xs"
-          variant="default"
-          loading={removing.isPending}
-          aria-label={`Remove ${webhook.url}`}
-          onClick={() => removing.mutate(webhook.id, { onError })}
-        >
-          Remove
-        </Button>
-      </span>
+      {mayChange && <Changes webhook={webhook} />}
       {webhook.deliveries.length > 0 && (
         <ul aria-label={`Messages to ${webhook.url}`}>
           {webhook.deliveries.slice(0, SHOWN).map((delivery) => (
@@ -50,6 +27,35 @@ export function WebhookItem({ webhook }: { webhook: Webhook }) {
         </ul>
       )}
     </li>
+  );
+}
+
+function Changes({ webhook }: { webhook: Webhook }) {
+  const toast = useToast();
+  const removing = useRemoveWebhook();
+  const testing = useTestWebhook();
+  const onError = (error: Error): void => toast({ text: sentence(error), isProblem: true });
+  return (
+    <span className={classes.row}>
+      <Button
+        size="xs"
+        variant="light"
+        loading={testing.isPending}
+        aria-label={`Send a test to ${webhook.url}`}
+        onClick={() => testing.mutate(webhook.id, { onError })}
+      >
+        Send a test
+      </Button>
+      <Button
+        size="xs"
+        variant="default"
+        loading={removing.isPending}
+        aria-label={`Remove ${webhook.url}`}
+        onClick={() => removing.mutate(webhook.id, { onError })}
+      >
+        Remove
+      </Button>
+    </span>
   );
 }
 

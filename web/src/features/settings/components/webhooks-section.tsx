@@ -3,32 +3,40 @@ import { Button, Checkbox, TextInput } from '@mantine/core';
 import { useQuery } from '@tanstack/react-query';
 import { type FormEvent, useState } from 'react';
 import type { AddedWebhook, NewWebhook } from '@/client/schema.gen';
-import { CopyButton } from '@/components/copy-button';
+import { CardSection } from '@/components/card-section';
+import { SecretOnce } from '@/components/secret-once';
+import { allows, type Role } from '@/lib/access';
 import { sentence } from '@/lib/api';
 import { useAddWebhook, webhooksQuery } from '../api/webhooks';
 import classes from './settings.module.css';
 import { WebhookItem } from './webhook-item';
 
-export function WebhooksSection() {
-  const { data, error } = useQuery(webhooksQuery);
+export function WebhooksSection({ role }: { role: Role }) {
+  const mayChange = allows(role, 'admin');
+  const { data, error } = useQuery({ ...webhooksQuery, enabled: allows(role, 'operator') });
   const [added, setAdded] = useState<AddedWebhook>();
   return (
-    <section className={`card ${classes.section}`} aria-labelledby="webhooks">
-      <h2 id="webhooks">Webhooks</h2>
-      <p className="faint">
-        A signed JSON message is sent to each address. Chats such as Mattermost or Slack show its text as it is.
-      </p>
-      <AddForm onAdded={setAdded} />
-      {added && <Secret webhook={added} />}
+    <CardSection
+      title="Webhooks"
+      note="A signed JSON message is sent to each address. Chats such as Mattermost or Slack show its text as it is."
+    >
+      {mayChange ? <AddForm onAdded={setAdded} /> : <p className="faint">Only an admin may change them.</p>}
+      {added && (
+        <SecretOnce
+          label={`Messages to ${added.url} are signed with this secret:`}
+          secret={added.secret}
+          note="It is shown only now."
+        />
+      )}
       {error && !data && <p className="problem">{sentence(error)}</p>}
       {data && data.webhooks.length > 0 && (
         <ul className={classes.webhooks} aria-label="Webhooks">
           {data.webhooks.map((webhook) => (
-            <WebhookItem key={webhook.id} webhook={webhook} />
+            <WebhookItem key={webhook.id} webhook={webhook} mayChange={mayChange} />
           ))}
         </ul>
       )}
-    </section>
+    </CardSection>
   );
 }
 
@@ -77,17 +85,5 @@ function AddForm({ onAdded }: { onAdded: (webhook: AddedWebhook) => void }) {
         Add
       </Button>
     </form>
-  );
-}
-
-function Secret({ webhook }: { webhook: AddedWebhook }) {
-  return (
-    <div className={classes.secret} role="status">
-      <span>Messages are signed with this secret. It is shown only now:</span>
-      <code>{webhook.secret}</code>
-      <span>
-        <CopyButton text={webhook.secret} label="Copy the secret" />
-      </span>
-    </div>
   );
 }

@@ -1,0 +1,112 @@
+"""Studies as files: taking one along, taking one in, and opening the one that comes with the product."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+from typing import Any, BinaryIO
+
+from fastapi import APIRouter, BackgroundTasks, Request
+from fastapi.responses import FileResponse
+from starlette.concurrency import run_in_threadpool
+
+from backend.api.access.declarations import needs
+from backend.api.dependencies import ServiceSettings, Store
+from backend.api.errors import ApiError, problem_responses
+from backend.api.schemas import Strict
+from backend.samples import sample_study
+from backend.store.study_files.packing import pack_study
+from backend.store.study_files.placing import LARGEST_STUDY_FILE, Imported, import_study
+
+router = APIRouter(prefix="/api/study-files", tags=["studies"])
+
+ARCHIVE = "application/zip"
+UPLOAD: dict[str, Any] = {
+    "requestBody": {
+        "required": True,
+        "description": "A study file, as it was exported.",
+        "content": {ARCHIVE: {"schema": {"type": "string", "format": "binary"}}},
+    }
+}
+DOWNLOAD: dict[int | str, dict[str, Any]] = {
+    200: {"content": {ARCHIVE: {"schema": {"type": "string", "format": "binary"}}}, "description": "The study file."}
+}
+
+
+class StudyImport(Strict):
+    """What taking in a study file has done."""
+
+    study_id: str
+    runs: int
+    already_there: bool
+
+
+class SampleStudy(Strict):
+    """Whether a study with real results comes with the product."""
+
+    size: int | None
+
+
+@router.get("/sample", responses=problem_responses())
+@needs("viewer")
+def get_sample_study() -> SampleStudy:
+    """Tell whether a sample study comes with the product, and how large its file is in bytes."""
+    path = sample_study()
+    return SampleStudy(size=None if path is None else path.stat().st_size)
+
+
+@router.post("/sample", responses=problem_responses(403, 404, 422))
+@needs("operator")
+def open_sample_study(store: Store, settings: ServiceSettings) -> StudyImport:
+    """Take in the sample study; asked again, it is the same one."""
+    path = sample_study()
+    if path is None:
+        raise ApiError(404, "No sample study comes with this version; launch one of the templates instead.")
+    return _answer(import_study(store, settings, path, "The sample study"))
+
+
+@router.post(
+    "", responses=problem_responses(400, 403, 413, 422), openapi_extra=UPLOAD, max_body_size=LARGEST_STUDY_FILE
+)
+@needs("operator")
+async def upload_study(request: Request, store: Store, settings: ServiceSettings) -> StudyImport:
+    """Take in a study file; the same file twice is the same study. It is treated as if it came from anyone."""
+    # Beside the data, where there has to be room for it anyway.
+    with tempfile.TemporaryFile(dir=settings.home, prefix=".upload-") as file:
+        await _receive(request, file)
+        imported = await run_in_threadpool(import_study, store, settings, file, "The uploaded file")
+    return _answer(imported)
+
+
+@router.get("/{study_id}", responses={**DOWNLOAD, **problem_responses(404, 409, 422)}, response_class=FileResponse)
+@needs("viewer")
+def download_study(study_id: str, store: Store, settings: ServiceSettings, after: BackgroundTasks) -> FileResponse:
+    """Pack a study into one file: its curves, configs, final policies, models and a few episodes."""
+    with tempfile.NamedTemporaryFile(dir=settings.home, prefix=".study-", suffix=".zip", delete=False) as file:
+        path = Path(file.name)
+    try:
+        pack_study(store, settings, study_id, path)
+    except BaseException:
+        path.unlink()
+        raise
+    after.add_task(path.unlink)
+    return FileResponse(path, media_type=ARCHIVE, filename=f"study-{study_id}.zip", background=after)
+
+
+async def _receive(request: Request, file: BinaryIO) -> None:
+    """Write a request's body to a file.
+
+    Raises:
+        ApiError: it is longer than any study file.
+    """
+    received = 0
+    async for piece in request.stream():
+        received += len(piece)
+        if received > LARGEST_STUDY_FILE:
+            raise ApiError(413, f"A study file has {LARGEST_STUDY_FILE / 2**20:.0f} MB at most; this one is longer.")
+        file.write(piece)
+    file.seek(0)
+
+
+def _answer(imported: Imported) -> StudyImport:
+    return StudyImport(study_id=imported.study_id, runs=imported.runs, already_there=imported.already_there)

@@ -1,0 +1,230 @@
+"""Packing a study: its runs that have succeeded, the locomotion runs that gave them their models, and their files."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import platform
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+from zipfile import ZIP_DEFLATED, ZIP_STORED, ZipFile
+
+from sqlalchemy import Connection, select
+
+from backend.store.database import Database
+from backend.store.errors import Refused
+from backend.store.files import FileRow, list_files
+from backend.store.locomotion import TRAIN, ZOO
+from backend.store.metrics import read_metrics
+from backend.store.settings import Settings
+from backend.store.states import RunState
+from backend.store.storage import FileStorage
+from backend.store.studies.launch import find_study
+from backend.store.study_files.records import (
+    FORMAT,
+    STUDY_MEMBER,
+    Curve,
+    Curves,
+    EpisodeRecord,
+    EventRecord,
+    Member,
+    Place,
+    ProgressRecord,
+    RunFile,
+    RunRecord,
+    SpecRecord,
+    StudyFile,
+    StudyRecord,
+    file_member,
+    metrics_member,
+)
+from backend.store.tables import AnyRow, attempts, episodes, run_events, run_needs, run_progress, runs, study_runs
+from sldr_core.disk import write_atomically
+from sldr_core.episodes import epoch_of
+
+BEST_POLICY, NEWEST_POLICY = "policy-best.pt", "policy-newest.pt"
+KINDS = {"policy-best.pt": "policy", "policy-newest.pt": "policy", "locomotion.pt": "locomotion"}
+PACKAGES = ("sldr", "torch", "numpy", "mujoco", "mjbatch", "gymnasium-robotics")
+
+
+@dataclass(frozen=True)
+class Packed:
+    """Say what a study file holds."""
+
+    runs: int
+    left_out: int
+    """Places of the study whose run has not succeeded."""
+    size: int
+    """Of the file [bytes]."""
+
+
+@dataclass(frozen=True)
+class Members:
+    """The runs of a study that go into its file."""
+
+    study: AnyRow
+    places: Mapping[str, Place]
+    """Where runs stand, by their ids, also those that are left out."""
+    objects: Sequence[AnyRow]
+    """Locomotion runs that gave a model."""
+    robots: Sequence[AnyRow]
+    needs: Mapping[str, Sequence[str]]
+    """Ids of the locomotion runs that a run has learnt from."""
+    machine: str
+
+
+def pack_study(db: Database, settings: Settings, study_id: str, out: Path) -> Packed:
+    """Write a study file.
+
+    Raises:
+        NotFound: there is no such study.
+        Refused: none of its runs has succeeded yet.
+        FileGone: a file of a run is no longer there.
+        BadFile: it has changed since it was registered.
+        FilesUnavailable: the shared place cannot be read just now.
+    """
+    members = _find_members(db, study_id)
+    if not members.robots:
+        raise Refused(f"No run of study '{members.study.name}' has succeeded yet; export it once one has.")
+    storage, packed_runs = FileStorage(settings), (*members.objects, *members.robots)
+
+    def write(path: Path) -> None:
+        with ZipFile(path, "w", ZIP_DEFLATED, compresslevel=9) as archive:
+            records = [_pack_run(db, storage, archive, row, members) for row in packed_runs]
+            content = StudyFile(
+                format=FORMAT,
+                made_at=datetime.now(UTC),
+                versions={package: version(package) for package in PACKAGES},
+                machine=members.machine,
+                study=StudyRecord(name=members.study.name, note=members.study.note, spec=_spec(members.study.spec)),
+                runs=records,
+            )
+            archive.writestr(STUDY_MEMBER, content.model_dump_json(indent=1))
+
+    write_atomically(out, write)
+    return Packed(len(packed_runs), len(members.places) - len(members.robots), out.stat().st_size)
+
+
+def _find_members(db: Database, study_id: str) -> Members:
+    with db.read() as conn:
+        study = find_study(conn, study_id)
+        rows = conn.execute(select(study_runs).where(study_runs.c.study_id == study_id)).all()
+        places = {
+            row.run_id: Place(task=row.task, method=row.method, variant=row.variant, seed=row.seed) for row in rows
+        }
+        robots = _succeeded(conn, places)
+        pairs = conn.execute(select(run_needs).where(run_needs.c.run_id.in_([row.id for row in robots]))).all()
+        objects = _succeeded(conn, {pair.needs_run_id for pair in pairs})
+        hosts = conn.execute(select(attempts.c.host).where(attempts.c.run_id.in_([*places]))).scalars().all()
+    there = {row.id for row in objects}
+    needs = {
+        row.id: [pair.needs_run_id for pair in pairs if pair.run_id == row.id and pair.needs_run_id in there]
+        for row in robots
+    }
+    return Members(study, places, objects, robots, needs, _machine(hosts))
+
+
+def _succeeded(conn: Connection, ids: Collection[str]) -> Sequence[AnyRow]:
+    done = (runs.c.state == RunState.SUCCEEDED, runs.c.deleted_at.is_(None))
+    return conn.execute(select(runs).where(runs.c.id.in_(list(ids)), *done).order_by(runs.c.number)).all()
+
+
+def _spec(values: Mapping[str, Any]) -> SpecRecord:
+    """Return the axes; runs that a person named as locomotion runs are unknown elsewhere."""
+    choice = values.get("locomotion", TRAIN)
+    return SpecRecord.model_validate(
+        {**values, "locomotion": choice if choice in (ZOO, TRAIN) else TRAIN}, strict=False
+    )
+
+
+def _pack_run(db: Database, storage: FileStorage, archive: ZipFile, row: AnyRow, members: Members) -> RunRecord:
+    curves = json.dumps(_curves(db, row.id).model_dump(), separators=(",", ":")).encode()
+    archive.writestr(metrics_member(row.id), curves)
+    files = _wanted(list_files(db, row.id))
+    for file in files:
+        # They are packed already.
+        archive.write(storage.bring(file), file_member(row.id, file.name), ZIP_STORED)
+    kept = {file.name for file in files}
+    with db.read() as conn:
+        progress = conn.execute(select(run_progress).where(run_progress.c.run_id == row.id)).mappings().one_or_none()
+        shown = conn.execute(select(episodes).where(episodes.c.run_id == row.id, episodes.c.file.in_(kept)))
+        listed = [EpisodeRecord(**_fields(EpisodeRecord, found)) for found in shown.mappings()]
+        history = conn.execute(select(run_events).where(run_events.c.run_id == row.id).order_by(run_events.c.id))
+        events = [EventRecord(**_fields(EventRecord, found)) for found in history.mappings()]
+    return RunRecord(
+        key=row.id,
+        preset=row.preset,
+        config=row.config,
+        success_rate=row.success_rate,
+        created_at=row.created_at,
+        started_at=row.started_at,
+        ended_at=row.ended_at,
+        needs=list(members.needs.get(row.id, ())),
+        place=members.places.get(row.id),
+        progress=None if progress is None else ProgressRecord(**_fields(ProgressRecord, progress)),
+        events=events,
+        episodes=listed,
+        files=[RunFile(name=file.name, kind=_kind(file.name), size=file.size, sha256=file.sha256) for file in files],
+        metrics=Member(size=len(curves), sha256=hashlib.sha256(curves).hexdigest()),
+    )
+
+
+def _curves(db: Database, run_id: str) -> Curves:
+    """Return the curves of a run as a later reader sees them: one attempt, without what was superseded."""
+    steps: list[tuple[int, int, int, int, int, float]] = []
+    metrics: dict[str, Curve] = {}
+    for columns in _pieces(db, run_id):
+        first = len(steps)
+        names = (
+            columns.step,
+            columns.epoch,
+            columns.env_steps,
+            columns.episodes,
+            columns.updates,
+            columns.wall_seconds,
+        )
+        steps.extend(zip(*names, strict=True))
+        for name, values in columns.values.items():
+            curve = metrics.setdefault(name, Curve(at=[], values=[]))
+            for place, value in enumerate(values, start=first):
+                if value is not None:
+                    curve.at.append(place)
+                    curve.values.append(value)
+    return Curves(steps=steps, metrics=metrics)
+
+
+def _pieces(db: Database, run_id: str) -> Iterator[Any]:
+    after = 0
+    while (columns := read_metrics(db, run_id, after)).step:
+        yield columns
+        after = columns.cursor
+
+
+def _wanted(files: Sequence[FileRow]) -> list[FileRow]:
+    """Return the final policy, the model and the last recorded episodes of a run."""
+    by_name = {file.name: file for file in files}
+    policy = next((name for name in (BEST_POLICY, NEWEST_POLICY) if name in by_name), "")
+    recorded = max(
+        (name for name in by_name if epoch_of(name) is not None), key=lambda name: epoch_of(name) or 0, default=""
+    )
+    # A locomotion model holds the object's policy, and is what the robot's run has learnt from.
+    wanted = ("locomotion.pt" if "locomotion.pt" in by_name else policy, recorded)
+    return [by_name[name] for name in wanted if name in by_name]
+
+
+def _kind(name: str) -> Any:
+    return KINDS.get(name, "episodes")
+
+
+def _fields(record: type[EpisodeRecord | EventRecord | ProgressRecord], row: Any) -> dict[str, Any]:
+    return {name: row[name] for name in record.model_fields}
+
+
+def _machine(hosts: Sequence[str | None]) -> str:
+    """Return what trained, in a few words that name nobody."""
+    count = len(set(hosts))
+    return f"{platform.machine()}, {count or 1} machine{'s' if count > 1 else ''}"

@@ -1,0 +1,100 @@
+"""Putting a locomotion model into the zoo: halved, measured, and described in the index.
+
+Weights are kept in half precision and loaded as float32, so what is measured is what is shipped. The normalisers stay
+as they are: their sums are too large for half precision.
+"""
+
+from __future__ import annotations
+
+import os
+import platform
+from dataclasses import replace
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+import torch
+
+from sldr_core.disk import write_atomically
+from sldr_core.errors import BadFile
+from sldr_core.nets.locomotion_model import LocomotionModel, Measured, load_locomotion_model
+from sldr_core.training.evaluation import evaluate
+from sldr_core.zoo.index import Measurement, Origin, ZooModel, checksum, name_of, read_zoo, write_zoo
+
+TEST_EPISODES = 380
+"""Episodes that a model is measured over."""
+TEST_SEED = 0
+HALVED = ("policy.", "critic.", "inverse.")
+"""The networks; everything else is small."""
+PACKAGES = ("sldr", "torch", "numpy", "mujoco", "mjbatch", "gymnasium-robotics")
+
+
+def add_to_zoo(source: Path, directory: Path, origin: Origin, episodes: int = TEST_EPISODES) -> ZooModel:
+    """Put a locomotion model into a zoo, in place of an earlier one for the same task and scene.
+
+    Args:
+        source: the `locomotion.pt` of a run.
+        directory: the zoo.
+        origin: how it was trained.
+        episodes: test episodes to measure it over.
+
+    Raises:
+        BadFile: the file is no usable locomotion model, or a weight is too large for half precision.
+    """
+    model = load_locomotion_model(source)
+    name = name_of(model.config)
+    models = read_zoo(directory)
+    directory.mkdir(parents=True, exist_ok=True)
+    path = directory / f"{name}.pt"
+    measured = Measurement(0, episodes, TEST_SEED, 0.0, 1.0)
+
+    def write(temporary: Path) -> None:
+        nonlocal measured
+        _save_halved(replace(model, measured=Measured(0.0, episodes)), source, temporary)
+        result = evaluate(temporary, episodes, TEST_SEED)
+        measured = Measurement(result.successes, episodes, TEST_SEED, result.low, result.high)
+        _save_halved(replace(model, measured=Measured(result.success_rate, episodes)), source, temporary)
+
+    write_atomically(path, write)
+    added = ZooModel(name, path, path.stat().st_size, checksum(path), model.config, measured, origin)
+    write_zoo(directory, {**models, name: added})
+    return added
+
+
+def origin_here(preset: str, wall_s: float | None = None, machine: str = "") -> Origin:
+    """Return an origin with the versions of this installation, on this machine if no other is named."""
+    return Origin(preset, _versions(), machine or describe_machine(), wall_s)
+
+
+def describe_machine() -> str:
+    """Return what trains here, in a few words that name nobody."""
+    names = (line.partition(":")[2].strip() for line in _cpu_lines() if line.startswith("model name"))
+    processor = next(names, platform.machine())
+    gpu = torch.cuda.get_device_name() if torch.cuda.is_available() else "no GPU"
+    return f"{len(os.sched_getaffinity(0))} cores of {processor}, {gpu}"
+
+
+def _save_halved(model: LocomotionModel, source: Path, path: Path) -> None:
+    model.save(path, change=lambda nets: _halved(nets, source))
+
+
+def _halved(nets: dict[str, torch.Tensor], source: Path) -> dict[str, torch.Tensor]:
+    halved = {name: value.half() if name.startswith(HALVED) else value for name, value in nets.items()}
+    for name, value in halved.items():
+        if not bool(torch.isfinite(value).all()):
+            raise BadFile(f"{source} cannot be kept in half precision: {name} holds a number that is too large.")
+    return halved
+
+
+def _versions() -> dict[str, str]:
+    found: dict[str, str] = {}
+    for package in PACKAGES:
+        try:
+            found[package] = version(package)
+        except PackageNotFoundError:
+            continue
+    return found
+
+
+def _cpu_lines() -> list[str]:
+    listed = Path("/proc/cpuinfo")
+    return listed.read_text().splitlines() if listed.is_file() else []

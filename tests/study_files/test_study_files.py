@@ -1,0 +1,127 @@
+"""A study that is packed and taken in elsewhere is the same study: curves, files, episodes, places."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from store_engines import ENGINES
+from study_file_cases import EPOCH, SPEC, changed, everything_below, members_of, trained_study
+
+from backend.store.database import Database
+from backend.store.episodes import EpisodeFilter, list_episodes
+from backend.store.errors import NotFound, Refused
+from backend.store.files import list_files
+from backend.store.labels import select_tags
+from backend.store.launches import LaunchOrder, plan_launch
+from backend.store.metric_summaries import list_metric_names
+from backend.store.metrics import read_metrics
+from backend.store.queue import claim
+from backend.store.runs import get_run, list_events
+from backend.store.settings import Settings
+from backend.store.states import RunState
+from backend.store.storage import FileStorage
+from backend.store.studies.launch import create_study, delete_study, extend_study, fill_study
+from backend.store.studies.matrix import StudyMatrix, get_study, list_studies
+from backend.store.studies.spec import Addition
+from backend.store.study_files.packing import pack_study
+from backend.store.study_files.placing import import_study
+
+pytestmark = pytest.mark.parametrize("engine", ENGINES, scope="module")
+
+
+def told(matrix: StudyMatrix) -> list[tuple]:
+    return [(cell.cell, cell.states, cell.best_success_rate, [run.seed for run in cell.runs]) for cell in matrix.cells]
+
+
+def test_a_study_is_the_same_elsewhere(
+    db: Database, settings: Settings, exported: Path, tmp_path_factory: pytest.TempPathFactory, sqlite_stores
+) -> None:
+    imported = import_study(db, settings, exported, "It")
+
+    matrix = get_study(db, imported.study_id)
+    assert (imported.runs, imported.already_there) == (5, False)
+    assert matrix.study.name == "Two methods"
+    assert matrix.study.note.startswith("What was asked.\n\nImported from a study file made ")
+    assert [cell.states for cell in matrix.cells] == [{RunState.SUCCEEDED: 2}] * 2
+    assert len(matrix.locomotion) == 1
+    run = matrix.cells[1].runs[0]
+    columns = read_metrics(db, run.run_id)
+    assert columns.epoch == [1, 2, 3]
+    assert columns.values["test/success_rate"][-1] == pytest.approx(get_run(db, run.run_id).success_rate)
+    assert "critic/task/loss" in list_metric_names(db)
+    files = list_files(db, run.run_id)
+    assert sorted(file.name for file in files) == ["episodes-epoch-0003.npz", "policy-best.pt"]
+    for file in files:
+        assert FileStorage(settings).bring(file).is_relative_to(settings.home)
+    page = list_episodes(db, run.run_id, EpisodeFilter(), "epoch", True, 10, 0)
+    assert (page.total, page.epochs) == (1, [EPOCH])
+
+
+def test_imported_runs_are_marked_and_never_trained_or_joined(db: Database, settings: Settings, exported: Path) -> None:
+    matrix = get_study(db, import_study(db, settings, exported, "It").study_id)
+    run_id = matrix.cells[0].runs[0].run_id
+
+    with db.read() as conn:
+        assert select_tags(conn, [run_id]) == {run_id: ("imported",)}
+    assert list_events(db, run_id)[-1].event == "imported"
+    assert claim(db, "worker-1", 60.0) is None
+    assert fill_study(db, matrix.study.id).queued == 0
+    [planned] = plan_launch(db, LaunchOrder("FetchPush", "manipulation", "her", (0,), "smoke"))
+    assert planned.reused_run_id is None
+    assert create_study(db, "My own", SPEC).joined == 0
+
+
+def test_the_same_file_is_the_same_study(db: Database, settings: Settings, exported: Path) -> None:
+    first = import_study(db, settings, exported, "It")
+    before = everything_below(settings.runs_directory)
+    delete_study(db, first.study_id)
+
+    again = import_study(db, settings, exported, "It")
+
+    assert (again.study_id, again.already_there) == (first.study_id, True)
+    assert everything_below(settings.runs_directory) == before
+    assert [study.name for study in list_studies(db, 10)] == ["Two methods"]
+
+
+def test_a_name_that_is_taken_gets_a_number(db: Database, settings: Settings, exported: Path, tmp_path: Path) -> None:
+    import_study(db, settings, exported, "It")
+    other = changed(exported, tmp_path / "other.zip", lambda listed: listed["study"].update(note="Another."))
+
+    second = import_study(db, settings, other, "It")
+
+    assert get_study(db, second.study_id).study.name == "Two methods (2)"
+
+
+def test_what_was_imported_can_be_exported_again(
+    db: Database, settings: Settings, exported: Path, tmp_path: Path
+) -> None:
+    imported = import_study(db, settings, exported, "It")
+
+    packed = pack_study(db, settings, imported.study_id, tmp_path / "again.zip")
+
+    assert (packed.runs, packed.left_out) == (5, 0)
+    curves = [content for name, content in members_of(exported).items() if name.startswith("metrics/")]
+    again = [content for name, content in members_of(tmp_path / "again.zip").items() if name.startswith("metrics/")]
+    assert sorted(again) == sorted(curves)
+
+
+def test_a_study_of_which_nothing_has_succeeded_is_not_packed(db: Database, settings: Settings, tmp_path: Path) -> None:
+    study_id = create_study(db, "Just begun", SPEC).study_id
+
+    with pytest.raises(Refused, match="No run of study 'Just begun' has succeeded yet"):
+        pack_study(db, settings, study_id, tmp_path / "out.zip")
+    with pytest.raises(NotFound):
+        pack_study(db, settings, "nothing", tmp_path / "out.zip")
+    assert not (tmp_path / "out.zip").exists()
+
+
+def test_what_has_not_succeeded_is_left_out(db: Database, settings: Settings, tmp_path: Path) -> None:
+    study_id = trained_study(db, settings)
+
+    extend_study(db, study_id, Addition(seeds=(7,)))
+
+    packed = pack_study(db, settings, study_id, tmp_path / "out.zip")
+
+    assert (packed.runs, packed.left_out) == (5, 2)
+    assert not any("checkpoint" in name for name in members_of(tmp_path / "out.zip"))

@@ -1,0 +1,44 @@
+/** The button that opens the study that comes with the product, with real results; none if none comes with it. */
+import { Button } from '@mantine/core';
+import { queryOptions, useMutation, useQuery, useQueryClient } from '@tanstack/react-query';
+import { useNavigate } from '@tanstack/react-router';
+import { client, sentence, unwrap } from '@/lib/api';
+
+/** Whether there is one; it changes only with the server's version. */
+const sampleQuery = queryOptions({
+  queryKey: ['sample-study'],
+  queryFn: ({ signal }) => unwrap(client.GET('/api/study-files/sample', { signal })),
+  staleTime: Number.POSITIVE_INFINITY,
+});
+
+export function OpenSample() {
+  const { data } = useQuery(sampleQuery);
+  const queries = useQueryClient();
+  const navigate = useNavigate();
+  const opening = useMutation({
+    mutationFn: () => unwrap(client.POST('/api/study-files/sample')),
+    onSuccess: async ({ study_id }) => {
+      await Promise.all([['studies'], ['runs']].map((queryKey) => queries.invalidateQueries({ queryKey })));
+      await navigate({ to: '/studies/$studyId', params: { studyId: study_id } });
+    },
+  });
+  if (!data || data.size === null) return null;
+  return (
+    <>
+      <Button
+        size="lg"
+        variant="default"
+        loading={opening.isPending}
+        title="Real results, made with this product: look at curves, statistics and 3D before you train anything."
+        onClick={() => opening.mutate()}
+      >
+        Open the sample study
+      </Button>
+      {opening.error && (
+        <p className="problem" role="alert">
+          {sentence(opening.error)}
+        </p>
+      )}
+    </>
+  );
+}
