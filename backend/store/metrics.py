@@ -90,8 +90,10 @@ def read_metrics(
         there = [metric_steps.c.run_id == run_id]
         if not superseded:
             there += not_superseded(conn, run_id)
-        query = select(metric_steps).where(*there, metric_steps.c.id > after).order_by(metric_steps.c.id).limit(READ_LIMIT)
-        steps = conn.execute(query).all()
+        query = (
+            select(metric_steps).where(*there, metric_steps.c.id > after).order_by(metric_steps.c.id).limit(READ_LIMIT)
+        )
+        steps = conn.execute(query.limit(READ_LIMIT)).all()
         if not steps:
             return MetricColumns(cursor=after)
         # Between the first and the last of these steps there may be some that are superseded.
