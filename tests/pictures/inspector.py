@@ -40,7 +40,7 @@ from sldr_core.training.files import LOCOMOTION_FILE, NEWEST_POLICY_FILE
 ROOT = Path(__file__).parents[2]
 PATIENCE_MS = 120_000
 """The page is drawn without a graphics card: patience [ms]."""
-HEIGHT = 1400
+HEIGHT = 1800
 """Height of the page [px]: all of it, as the scene is drawn again when that changes."""
 COLOURS = 128
 """Colours of a picture's palette: the files stay small."""
