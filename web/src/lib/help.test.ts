@@ -1,10 +1,11 @@
 import { readFileSync } from 'node:fs';
+import { resolve } from 'node:path';
 import { expect, test } from 'vitest';
 import { EQUATIONS, readEquation } from './equations';
 import { METHOD_HELP } from './method-help';
 import { GROUP_SECTIONS, SETTING_EQUATIONS } from './setting-help';
 
-const read = (path: string) => readFileSync(new URL(`../../../${path}`, import.meta.url), 'utf8');
+const read = (path: string) => readFileSync(resolve(import.meta.dirname, '../../..', path), 'utf8');
 
 /** The names in the first table of the methods' page, which is written from the code. */
 function methodsOfDocs(): string[] {
