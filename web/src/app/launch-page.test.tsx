@@ -113,3 +113,27 @@ test('a locomotion run learns with methods of that phase only', async () => {
   }
   expect(screen.getByRole('radio', { name: 'her' })).toHaveProperty('checked', true);
 });
+
+test('whoever has no run yet is led through three steps, until they are put away', async () => {
+  const { user } = openPage('/launch');
+  const steps = await screen.findByRole('region', { name: 'Your first run' });
+  expect(within(steps).getAllByRole('listitem')).toHaveLength(3);
+  await user.click(within(steps).getByRole('button', { name: 'Do not show this again' }));
+  expect(screen.queryByRole('region', { name: 'Your first run' })).toBeNull();
+  expect(window.localStorage.getItem('sldr-first-steps-away')).toBe('true');
+});
+
+test('who has runs is not told how to begin', async () => {
+  server.on('GET /api/runs', () => ({ body: { runs: [RUN], values: [[]], next_cursor: null, total: 1 } }));
+  openPage('/launch');
+  await screen.findByRole('button', { name: 'Launch 2 runs' });
+  expect(screen.queryByRole('region', { name: 'Your first run' })).toBeNull();
+});
+
+test('each method tells what it does, and asking chooses nothing', async () => {
+  const { user } = openPage('/launch');
+  await user.click(await screen.findByRole('button', { name: 'What her does' }));
+  const help = await screen.findByRole('dialog', { name: 'What her does' });
+  expect(within(help).getByRole('img', { name: /^A new goal is drawn/ })).toBeTruthy();
+  expect(screen.getByRole<HTMLInputElement>('radio', { name: 'her-sldr' }).checked).toBe(true);
+});

@@ -3,21 +3,27 @@ import { Tooltip } from '@mantine/core';
 import { Link } from '@tanstack/react-router';
 import { SchemeSwitch } from '@/app/scheme-switch';
 import { Icon, type IconName } from '@/components/icon';
+import { PLACES, type PlacePath } from '@/lib/places';
 import classes from './shell.module.css';
 
-type Place = '/' | '/launch' | '/studies' | '/compare' | '/queue' | '/workers' | '/settings';
+const ICONS: Readonly<Record<PlacePath, IconName>> = {
+  '/': 'runs',
+  '/launch': 'launch',
+  '/studies': 'studies',
+  '/compare': 'chart',
+  '/queue': 'queue',
+  '/workers': 'workers',
+  '/settings': 'settings',
+  '/account': 'person',
+};
 
-const PLACES: readonly { to: Place; label: string; icon: IconName }[] = [
-  { to: '/', label: 'Runs', icon: 'runs' },
-  { to: '/launch', label: 'New run', icon: 'launch' },
-  { to: '/studies', label: 'Studies', icon: 'studies' },
-  { to: '/compare', label: 'Compare', icon: 'chart' },
-  { to: '/queue', label: 'Queue', icon: 'queue' },
-  { to: '/workers', label: 'Workers', icon: 'workers' },
-  { to: '/settings', label: 'Settings', icon: 'settings' },
-];
+interface Props {
+  isNarrow: boolean;
+  onToggle: () => void;
+  onFind: () => void;
+}
 
-export function Rail({ isNarrow, onToggle }: { isNarrow: boolean; onToggle: () => void }) {
+export function Rail({ isNarrow, onToggle, onFind }: Props) {
   return (
     <nav className={classes.rail} aria-label="Main">
       <Link to="/" className={classes.brand} aria-label="SLDR, all runs">
@@ -25,7 +31,7 @@ export function Rail({ isNarrow, onToggle }: { isNarrow: boolean; onToggle: () =
         <span className={classes.label}>SLDR</span>
       </Link>
       <div className={classes.places}>
-        {PLACES.map(({ to, label, icon }) => (
+        {PLACES.map(({ to, label }) => (
           <Tooltip key={to} label={label} position="right" disabled={!isNarrow}>
             <Link
               to={to}
@@ -34,16 +40,28 @@ export function Rail({ isNarrow, onToggle }: { isNarrow: boolean; onToggle: () =
               activeProps={{ 'aria-current': 'page' }}
               aria-label={label}
             >
-              <Icon name={icon} size={17} />
+              <Icon name={ICONS[to]} size={17} />
               <span className={classes.label}>{label}</span>
             </Link>
           </Tooltip>
         ))}
       </div>
       <div className={classes.foot}>
+        <Tooltip label="Find anything (Ctrl K)" position="right" openDelay={isNarrow ? 0 : 400}>
+          <button
+            type="button"
+            className={classes.place}
+            onClick={onFind}
+            aria-label="Find anything"
+            aria-keyshortcuts="Control+K Meta+K"
+          >
+            <Icon name="search" size={17} />
+            <span className={classes.label}>Find</span>
+          </button>
+        </Tooltip>
         <Tooltip label="Account" position="right" disabled={!isNarrow}>
           <Link to="/account" className={classes.place} activeProps={{ 'aria-current': 'page' }} aria-label="Account">
-            <Icon name="person" size={17} />
+            <Icon name={ICONS['/account']} size={17} />
             <span className={classes.label}>Account</span>
           </Link>
         </Tooltip>

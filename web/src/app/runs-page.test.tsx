@@ -27,6 +27,10 @@ test('without runs the page says what to do first', async () => {
   server.on('GET /api/runs', () => ({ body: { runs: [], values: [], next_cursor: null, total: 0 } }));
   openPage('/');
   expect(await screen.findByRole('link', { name: 'Launch the first run' })).toBeTruthy();
+  const begin = screen.getByRole('link', { name: 'Begin with FetchPush and her-sldr' });
+  expect(begin.getAttribute('href')).toBe(
+    '/launch?task=FetchPush&phase=manipulation&method=her-sldr&preset=quick&seeds=0',
+  );
 });
 
 test('a running run shows state, epoch, success and speed', async () => {

@@ -1,7 +1,9 @@
 /** What surrounds every page: the rail, the banner when the server is away, the page itself. */
 import { useLocalStorage } from '@mantine/hooks';
 import { Outlet } from '@tanstack/react-router';
+import { useState } from 'react';
 import { ConnectionBanner } from '@/app/connection-banner';
+import { type Guide, KeyboardGuide } from '@/app/keyboard-guide';
 import { Notices } from '@/app/notices';
 import { Rail } from '@/app/rail';
 import classes from './shell.module.css';
@@ -12,12 +14,14 @@ export function Shell() {
     defaultValue: false,
     getInitialValueInEffect: false,
   });
+  const [guide, showGuide] = useState<Guide | null>(null);
   return (
     <div className={classes.shell} data-narrow={isNarrow || undefined}>
       <a className={classes.skip} href="#main">
         Skip to the page
       </a>
-      <Rail isNarrow={isNarrow} onToggle={() => setNarrow(!isNarrow)} />
+      <Rail isNarrow={isNarrow} onToggle={() => setNarrow(!isNarrow)} onFind={() => showGuide('palette')} />
+      <KeyboardGuide shown={guide} onShow={showGuide} />
       <div className={classes.content}>
         <ConnectionBanner />
         <Notices />

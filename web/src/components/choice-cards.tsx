@@ -9,6 +9,8 @@ export interface ChoiceCard {
   readonly picture?: ReactNode;
   /** Why it cannot be chosen now. */
   readonly obstacle?: string;
+  /** A button that tells more. */
+  readonly help?: ReactNode;
 }
 
 interface Props {
@@ -47,6 +49,7 @@ export function ChoiceCards({ legend, cards, value, onChange, problem, width = 1
                 {card.obstacle ?? card.summary}
               </span>
             </span>
+            {card.help && <span className={classes.help}>{card.help}</span>}
           </label>
         ))}
       </div>

@@ -15,6 +15,12 @@ export const choicesQuery = queryOptions({
   staleTime: Number.POSITIVE_INFINITY,
 });
 
+/** Whether there is any run at all: the newest one, and how many there are. */
+export const anyRunQuery = queryOptions({
+  queryKey: ['runs', 'any'],
+  queryFn: ({ signal }) => unwrap(client.GET('/api/runs', { params: { query: { limit: 1 } }, signal })),
+});
+
 /** One run, kept fresh. */
 export function runQuery(runId: string) {
   return queryOptions({

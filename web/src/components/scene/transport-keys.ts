@@ -29,7 +29,11 @@ export function readTransportKey(key: string, isShifted: boolean, state: Transpo
 /** Whether what has the focus needs the key for itself. */
 export function needsKey(target: EventTarget | null, key: string): boolean {
   if (!(target instanceof Element)) return false;
-  if (target.closest('textarea, select, [contenteditable], [role=tablist], [role=menu], [role=listbox], dialog')) {
+  if (
+    target.closest(
+      'textarea, select, [contenteditable], [role=tablist], [role=menu], [role=listbox], [role=dialog], dialog',
+    )
+  ) {
     return true;
   }
   const input = target.closest('input');

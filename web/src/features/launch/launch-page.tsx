@@ -3,10 +3,11 @@ import { Button } from '@mantine/core';
 import { useQuery } from '@tanstack/react-query';
 import { getRouteApi } from '@tanstack/react-router';
 import type { Choices } from '@/client/schema.gen';
+import { FirstSteps } from '@/components/first-steps';
 import { SentencePanel } from '@/components/sentence-panel';
 import { sentence } from '@/lib/api';
 import { formatName } from '@/lib/format';
-import { choicesQuery } from '@/lib/queries';
+import { anyRunQuery, choicesQuery } from '@/lib/queries';
 import { useLaunch } from './api/launch-runs';
 import { AdvancedSettings } from './components/advanced-settings';
 import classes from './components/launch.module.css';
@@ -24,12 +25,14 @@ export function LaunchPage() {
     error,
     refetch,
   } = useQuery({ ...choicesQuery, refetchInterval: ({ state }) => (state.data ? false : 3_000) });
+  const { data: runs } = useQuery(anyRunQuery);
   return (
     <>
       <title>New run · SLDR</title>
       <div className="page-head">
         <h1>New run</h1>
       </div>
+      {runs?.total === 0 && <FirstSteps isAtForm />}
       {choices && <Form choices={choices} />}
       {error && !choices && (
         <SentencePanel

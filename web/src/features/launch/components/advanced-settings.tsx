@@ -4,7 +4,8 @@ import { useDisclosure } from '@mantine/hooks';
 import { Icon } from '@/components/icon';
 import { InlineCode } from '@/components/inline-code';
 import { formatPlural } from '@/lib/format';
-import { valueAt } from '@/lib/settings';
+import { GROUP_SECTIONS } from '@/lib/setting-help';
+import { type SettingGroup, valueAt } from '@/lib/settings';
 import type { LaunchForm } from '../use-launch-form';
 import classes from './launch.module.css';
 import { SettingField } from './setting-field';
@@ -52,6 +53,7 @@ export function AdvancedSettings({ form, problems, onType }: Props) {
                       <b>{group.label}</b>
                       <span className="faint">
                         <InlineCode text={group.help} />
+                        {tellSection(group)}
                       </span>
                       {touched > 0 && <span className={classes.touched}>{formatPlural(touched, 'change')}</span>}
                     </span>
@@ -78,4 +80,10 @@ export function AdvancedSettings({ form, problems, onType }: Props) {
       </div>
     </section>
   );
+}
+
+/** Where the paper tells of a group, unless its help says so already. */
+function tellSection({ name, help }: SettingGroup): string {
+  const section = GROUP_SECTIONS[name];
+  return section === undefined || help.includes('§') ? '' : ` Paper: ${section}.`;
 }

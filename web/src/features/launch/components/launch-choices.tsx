@@ -3,6 +3,7 @@ import { Chip, Group, TextInput } from '@mantine/core';
 import type { Choices } from '@/client/schema.gen';
 import { ChoiceCards } from '@/components/choice-cards';
 import { LocomotionChoice } from '@/components/locomotion-choice';
+import { MethodHelpButton } from '@/components/method-help-button';
 import { formatName } from '@/lib/format';
 import type { LaunchSearch } from '../search';
 import type { Chosen } from '../use-launch-form';
@@ -61,6 +62,7 @@ export function LaunchChoices({ choices, chosen, problems, onChoose }: Props) {
           value: method.name,
           title: method.name,
           summary: `${method.summary} In the paper: ${method.title}.`,
+          help: <MethodHelpButton name={method.name} title={method.title} />,
           obstacle: method.phases.includes(chosen.phase)
             ? undefined
             : 'Only for manipulation: an object learns from the sparse reward alone.',

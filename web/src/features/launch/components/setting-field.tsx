@@ -1,6 +1,8 @@
 /** One setting: a list of words, a switch, or a text that is read as numbers. */
 import { Select, Switch, TextInput, UnstyledButton } from '@mantine/core';
+import { EquationLine } from '@/components/equation-line';
 import { InlineCode } from '@/components/inline-code';
+import { SETTING_EQUATIONS } from '@/lib/setting-help';
 import { describeBounds, type Setting, type SettingValue, settingText } from '@/lib/settings';
 import classes from './launch.module.css';
 
@@ -54,11 +56,13 @@ export function SettingField({ setting, typed, preset, problem, onType }: Props)
 
 function Help({ setting }: { setting: Setting }) {
   const isNumeric = setting.kind === 'integer' || setting.kind === 'number' || setting.kind === 'integers';
+  const equation = SETTING_EQUATIONS[setting.path];
   const bounds = isNumeric ? describeBounds(setting) : '';
   return (
     <>
       <InlineCode text={setting.help} />
       {bounds && <span className={classes.bounds}> {bounds}</span>}
+      {equation && <EquationLine name={equation} />}
     </>
   );
 }

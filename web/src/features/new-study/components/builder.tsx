@@ -3,6 +3,7 @@ import { getRouteApi } from '@tanstack/react-router';
 import type { Choices, StudyTemplate } from '@/client/schema.gen';
 import { ChoiceCards } from '@/components/choice-cards';
 import { LocomotionChoice } from '@/components/locomotion-choice';
+import { MethodHelpButton } from '@/components/method-help-button';
 import { useLaunchStudy } from '@/lib/use-launch-study';
 import { type Draft, draftOf, useDraft } from '../use-draft';
 import classes from './builder.module.css';
@@ -58,7 +59,11 @@ export function Builder({ choices, templates, begin }: Props) {
         />
         <NameChecks
           legend="Methods"
-          known={choices.methods}
+          known={choices.methods.map(({ name, title, summary }) => ({
+            name,
+            summary,
+            help: <MethodHelpButton name={name} title={title} />,
+          }))}
           chosen={draft.methods}
           problem={problems.methods}
           onChange={(methods) => choose({ methods })}

@@ -1,11 +1,11 @@
 /** Choose any number of tasks or methods. */
 import { Button, Checkbox } from '@mantine/core';
-import { useId } from 'react';
+import { type ReactNode, useId } from 'react';
 import classes from './builder.module.css';
 
 interface Props {
   legend: string;
-  known: readonly { name: string; summary: string }[];
+  known: readonly { name: string; summary: string; help?: ReactNode }[];
   chosen: readonly string[];
   problem: string | undefined;
   onChange: (names: string[]) => void;
@@ -24,15 +24,17 @@ export function NameChecks({ legend, known, chosen, problem, onChange }: Props) 
         </span>
       </legend>
       <div className={classes.checks}>
-        {known.map(({ name, summary }) => (
-          <Checkbox
-            key={name}
-            size="xs"
-            label={name}
-            title={summary}
-            checked={chosen.includes(name)}
-            onChange={() => toggle(name)}
-          />
+        {known.map(({ name, summary, help }) => (
+          <span key={name} className={classes.check}>
+            <Checkbox
+              size="xs"
+              label={name}
+              title={summary}
+              checked={chosen.includes(name)}
+              onChange={() => toggle(name)}
+            />
+            {help}
+          </span>
         ))}
       </div>
       <div className={classes.chips}>

@@ -1,6 +1,8 @@
 /** Settings laid over the preset: one value for every run, or several to compare. */
 import { Button, CloseButton, Select, TextInput } from '@mantine/core';
+import { EquationLine } from '@/components/equation-line';
 import { InlineCode } from '@/components/inline-code';
+import { SETTING_EQUATIONS } from '@/lib/setting-help';
 import type { SettingRow } from '../setting-rows';
 import type { Draft, StudyDraft } from '../use-draft';
 import classes from './builder.module.css';
@@ -43,7 +45,7 @@ export function SettingRows({ form, onChange }: Props) {
               aria-label={`Values of ${row.path}`}
               placeholder={setting?.kind === 'integers' ? '64, 64 | 128, 128' : 'a value, or several'}
               inputWrapperOrder={['input', 'description', 'error']}
-              description={setting && <InlineCode text={setting.help} />}
+              description={setting && <Help {...setting} />}
               value={row.text}
               error={problems.rows[place]}
               onChange={(event) => replace(place, { ...row, text: event.currentTarget.value })}
@@ -73,4 +75,14 @@ export function SettingRows({ form, onChange }: Props) {
 
 function firstUnused(settings: readonly { path: string }[], rows: readonly SettingRow[]): string {
   return settings.find(({ path }) => !rows.some((row) => row.path === path))?.path ?? '';
+}
+
+function Help({ path, help }: { path: string; help: string }) {
+  const equation = SETTING_EQUATIONS[path];
+  return (
+    <>
+      <InlineCode text={help} />
+      {equation && <EquationLine name={equation} />}
+    </>
+  );
 }

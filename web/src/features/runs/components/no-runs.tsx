@@ -1,9 +1,11 @@
 /** What stands in place of the table when no run passes the filters. */
 import { ButtonLink } from '@/components/anchor-link';
+import { FirstSteps } from '@/components/first-steps';
 import { OpenSample } from '@/components/open-sample';
 import { SampleStudy } from '@/components/sample-study';
 import { SentencePanel } from '@/components/sentence-panel';
 import { isNarrowed, type RunsSearch } from '../search';
+import classes from './runs.module.css';
 
 export function NoRuns({ search }: { search: RunsSearch }) {
   if (isNarrowed(search)) {
@@ -33,21 +35,27 @@ export function NoRuns({ search }: { search: RunsSearch }) {
     );
   }
   return (
-    <SentencePanel
-      title="Nothing has been trained yet"
-      actions={
-        <>
-          <ButtonLink to="/launch" size="lg" variant="default">
-            Launch the first run
-          </ButtonLink>
-          <OpenSample />
-          <SampleStudy />
-        </>
-      }
-    >
-      Choose a task, a method and seeds. An object first learns to move itself to its goal (locomotion); the robot then
-      learns from it (manipulation). With the preset “quick” you can watch both happen. Or see everything at once: a
-      two-minute study trains FetchPush with two methods and three seeds.
-    </SentencePanel>
+    <>
+      <SentencePanel
+        title="Nothing has been trained yet"
+        actions={
+          <>
+            <ButtonLink to="/launch" size="lg" variant="default">
+              Launch the first run
+            </ButtonLink>
+            <OpenSample />
+            <SampleStudy />
+          </>
+        }
+      >
+        Here simulated robots learn to push, stack and turn objects, and you watch, compare and replay what they learn.
+        An object first learns to move itself to its goal (locomotion); the robot is then rewarded for moving it that
+        way (manipulation). Launch one run, or a whole study of methods and seeds that is over in about two minutes. The
+        quick start, <code>docs/quick-start.md</code>, goes through it step by step.
+      </SentencePanel>
+      <div className={classes.after}>
+        <FirstSteps />
+      </div>
+    </>
   );
 }
