@@ -30,6 +30,8 @@ assert Path(sldr_core.__file__).is_relative_to(sys.argv[1]), sldr_core.__file__
 exec(compile(Path(sys.argv[1], "tests/core/test_near_stream.py").read_text(), "the page's test", "exec"))
 test_five_centimetres_cost_a_half_and_a_metre_costs_one()
 import gymnasium
+from sldr_core.registration import register_envs
+register_envs()
 gymnasium.make("sldr/FetchPushNear-v0").close()
 from worker.cli import main
 main(sys.argv[2:])
