@@ -15,7 +15,9 @@ import pytest
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs/extending.md").read_text()
 
-STEP = re.compile(r"^\*\*(In|New file)\*\* `(?P<path>[^`]+)`$|^```(?P<kind>diff|python)\n(?P<code>.*?)^```$", re.M | re.S)
+STEP = re.compile(
+    r"^\*\*(In|New file)\*\* `(?P<path>[^`]+)`$|^```(?P<kind>diff|python)\n(?P<code>.*?)^```$", re.M | re.S
+)
 """The name of a file, or a block that is for the file named last."""
 
 TINY = ("loop.epochs=1", "loop.cycles_per_epoch=2", "loop.updates_per_cycle=2", "loop.episodes_per_cycle=2")
@@ -99,7 +101,16 @@ def test_the_files_of_the_page_are_in_the_style_of_the_rest(extended: Path) -> N
     changed = sorted({step["path"] for step in STEP.finditer(PAGE) if step["path"]})
     assert len(changed) == 7
     for check in (["check"], ["format", "--check"]):
-        command = [sys.executable, "-m", "ruff", *check, "--no-cache", "--config", str(ROOT / "pyproject.toml"), *changed]
+        command = [
+            sys.executable,
+            "-m",
+            "ruff",
+            *check,
+            "--no-cache",
+            "--config",
+            str(ROOT / "pyproject.toml"),
+            *changed,
+        ]
         done = subprocess.run(command, cwd=extended, capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stdout + done.stderr
 
