@@ -1,4 +1,4 @@
-"""What docs/extending.md adds, applied to a copy of the library: it trains, with the reward and the critic that it brings."""
+"""What docs/extending.md adds, applied to a copy of the library: it trains, with the new reward and its critic."""
 
 from __future__ import annotations
 
