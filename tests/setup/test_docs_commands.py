@@ -25,8 +25,8 @@ LINK = re.compile(r"\]\(([^)\s]+)\)")
 SETTING = re.compile(r"^[A-Z_]+=\S*$")
 """A variable that is set for one command."""
 
-PARTS = {"export": ("figure", "bundle", "study", "tensorboard", "mlflow"), "zoo": ("add",), "list": ()}
-"""Commands whose first word can be a command of its own."""
+PARTS = {"export": ("figure", "bundle", "study", "rerun", "tensorboard", "mlflow"), "zoo": ("add",)}
+"""Commands with commands of their own."""
 
 
 def texts(page: Path) -> Iterator[str]:
@@ -75,11 +75,13 @@ def help_of(*words: str) -> str:
 @pytest.mark.parametrize(("page", "words"), commands("sldr"))
 def test_a_command_of_sldr_has_these_options(page: str, words: list[str]) -> None:
     name, *rest = words
+    if name == "export":  # `--rerun` and `--study` may be written with dashes
+        rest = [word.lstrip("-") if word in ("--rerun", "--study") else word for word in rest]
     if name in ("--help", "--version", "COMMAND"):
         return
     assert name in COMMANDS, f"{page}: no command {name}"
-    part = rest[:1] if rest and rest[0] in PARTS.get(name, ()) else []
-    known = set(re.findall(r"--[a-z][\w-]*", help_of(name, *part)))
+    part = [word for word in rest if word in PARTS.get(name, ())][:1]
+    known = set(re.findall(r"--[a-z][\w-]*", help_of(name) + help_of(name, *part)))
     asked = {word.split("=")[0] for word in rest if word.startswith("--")}
     assert asked <= known | {"--help"}, f"{page}: sldr {' '.join(words)}"
 
