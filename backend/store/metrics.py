@@ -87,18 +87,17 @@ def read_metrics(
             a later attempt has logged its step or an earlier one.
     """
     with db.read() as conn:
-        there = [metric_steps.c.run_id == run_id, metric_steps.c.id > after]
+        there = [metric_steps.c.run_id == run_id]
         if not superseded:
             there += not_superseded(conn, run_id)
-        query = select(metric_steps).where(*there).order_by(metric_steps.c.id).limit(READ_LIMIT)
-        steps = conn.execute(query).all()
+        query = (
+            select(metric_steps).where(*there, metric_steps.c.id > after).order_by(metric_steps.c.id).limit(READ_LIMIT)
+        )
+        steps = conn.execute(query.limit(READ_LIMIT)).all()
         if not steps:
             return MetricColumns(cursor=after)
-        wanted = [
-            metric_steps.c.run_id == run_id,
-            metric_steps.c.id >= steps[0].id,
-            metric_steps.c.id <= steps[-1].id,
-        ]
+        # Between the first and the last of these steps there may be some that are superseded.
+        wanted = [*there, metric_steps.c.id >= steps[0].id, metric_steps.c.id <= steps[-1].id]
         if names is not None:
             wanted.append(metric_values.c.name.in_(names))
         values = conn.execute(

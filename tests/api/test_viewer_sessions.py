@@ -340,4 +340,4 @@ def test_no_checkpoint_can_be_chosen_for_demonstrations(service: Service):
     [run_id] = service.launch()
     body = {"kind": "inspector", "run_id": run_id, "policy": "checkpoint.pt"}
     answer = service.client.post("/api/viewer-sessions", json=body)
-    assert (answer.status_code, problem_fields(answer)) == (422, ["policy"])
+    assert (answer.status_code, problem_fields(answer)) == (422, ["inspector.policy"])

@@ -147,6 +147,7 @@ def take(page: Page, picture: Picture, path: Path) -> None:
     if picture.starts != picture.task:
         starts.select_option(picture.starts)
     page.get_by_role("button", name="Collect").click()
+    expect(page.get_by_role("button", name="Stop")).to_be_visible()
     expect(page.get_by_role("button", name="Collect")).to_be_visible()
     for _ in range(picture.number):
         page.get_by_role("button", name="Next demonstration").click()

@@ -62,7 +62,7 @@ def plainly(db: Database, run_id: str) -> dict[str, tuple[object, ...]]:
     return expected
 
 
-@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture], database=None)
+@settings(max_examples=12, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture], database=None)
 @given(attempts)
 def test_summaries_are_those_of_the_curve_whatever_attempts_send(db: Database, sent: list[list[Points]]) -> None:
     with db.write() as conn:

@@ -82,6 +82,16 @@ def test_a_later_attempt_supersedes_from_its_first_step(db: Database) -> None:
     assert stored_points(db) == 5
 
 
+def test_a_metric_that_only_superseded_points_have_is_none(db: Database) -> None:
+    claim = claimed_run(db)
+    append_metrics(db, claim, [MetricPoint(step(1), {"a/x": 1.0}), MetricPoint(step(5), {"a/old": 5.0})])
+    again = next_attempt(db, claim)
+    append_metrics(db, again, [MetricPoint(step(3), {"a/x": 3.0})])
+
+    assert read_metrics(db, claim.run_id).values == {"a/x": [1.0, 3.0]}
+    assert read_metrics(db, claim.run_id, superseded=True).values["a/old"] == [None, 5.0, None]
+
+
 def test_a_third_attempt_supersedes_the_second_and_the_first(db: Database) -> None:
     first = claimed_run(db)
     log(db, first, 1, 2, 3, 4, 5)

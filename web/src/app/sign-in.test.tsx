@@ -20,7 +20,8 @@ test('whoever is not known is led to sign in, with a sentence, and back afterwar
     return DONE;
   });
   const { router, user } = openPage('/workers');
-  await screen.findByText('Your session has ended; sign in again.');
+  await screen.findByLabelText(/^Name/);
+  expect(screen.getByText('Your session has ended; sign in again.')).toBeTruthy();
   expect(router.state.location.pathname).toBe('/sign-in');
   expect(screen.queryByRole('navigation')).toBeNull();
   await user.type(screen.getByLabelText(/^Name/), 'ada');

@@ -33,7 +33,7 @@ export function isSignedOut(error: unknown): boolean {
 /** Whatever was kept belongs to somebody else once another person is signed in. */
 function useForget() {
   const queries = useQueryClient();
-  return () => queries.clear();
+  return () => queries.getQueryCache().clear();
 }
 
 export type Entry =
