@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import logging
 from pathlib import Path
+from typing import IO
 
 import pytest
 from live_api import Service
@@ -120,6 +121,8 @@ def test_files_rotate_and_are_shared_by_no_two_processes(tmp_path: Path, monkeyp
     before, level = list(root.handlers), root.level
     monkeypatch.setattr("backend.logs.LARGEST_FILE", 200)
     monkeypatch.setattr("backend.logs.KEPT_FILES", 2)
+    locks: list[IO[str]] = []
+    monkeypatch.setattr("backend.logs._held", locks)
     try:
         first = start_logging("worker", tmp_path, "json")
         second = start_logging("worker", tmp_path, "human")
@@ -130,6 +133,8 @@ def test_files_rotate_and_are_shared_by_no_two_processes(tmp_path: Path, monkeyp
         for added in [handler for handler in root.handlers if handler not in before]:
             root.removeHandler(added)
             added.close()
+        for lock in locks:
+            lock.close()
         root.setLevel(level)
     assert (first.name, second.name) == ("worker.log", "worker-2.log")
     assert {path.name for path in tmp_path.glob("worker.log*")} == {"worker.log", "worker.log.1", "worker.log.2"}
