@@ -19,7 +19,7 @@ export function SampleStudy() {
     );
   return (
     <>
-      <Button size="lg" loading={launching.isPending} title={template.summary} onClick={launch}>
+      <Button size="md" loading={launching.isPending} title={template.summary} onClick={launch}>
         Launch a two-minute study
       </Button>
       {launching.error && (

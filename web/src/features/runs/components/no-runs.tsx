@@ -40,7 +40,7 @@ export function NoRuns({ search }: { search: RunsSearch }) {
         title="Nothing has been trained yet"
         actions={
           <>
-            <ButtonLink to="/launch" size="lg" variant="default">
+            <ButtonLink to="/launch" size="md" variant="default">
               Launch the first run
             </ButtonLink>
             <OpenSample />
