@@ -53,7 +53,7 @@ class Runs:
         Raises:
             Unfit: a name or setting cannot work; the sentence says which.
         """
-        body = _launch(task, method, seeds, preset, phase, settings) | {"locomotion": locomotion}
+        body = _launch(task, method, seeds, preset, phase, settings, locomotion)
         return self._connection.tell(list[PlannedRun], "POST", "/api/launches/plan", body, "runs")
 
     def launch(
@@ -75,7 +75,7 @@ class Runs:
         Raises:
             Unfit: a name or setting cannot work; the sentence says which.
         """
-        body = _launch(task, method, seeds, preset, phase, settings) | {"locomotion": locomotion}
+        body = _launch(task, method, seeds, preset, phase, settings, locomotion)
         return self._connection.tell(list[Run], "POST", "/api/launches", body, "runs")
 
     def find(self, limit: int | None = None, **filters: Any) -> list[Run]:
@@ -187,10 +187,16 @@ class Runs:
 
 
 def _launch(
-    task: str, method: str, seeds: Sequence[int], preset: str, phase: Phase, settings: Mapping[str, Any] | None
+    task: str,
+    method: str,
+    seeds: Sequence[int],
+    preset: str,
+    phase: Phase,
+    settings: Mapping[str, Any] | None,
+    locomotion: str,
 ) -> dict[str, Any]:
     choices = {"task": task, "phase": phase, "method": method, "seeds": list(seeds), "preset": preset}
-    return {**choices, "overrides": dict(settings or {})}
+    return {**choices, "overrides": dict(settings or {}), "locomotion": locomotion}
 
 
 def _id(run: Wanted) -> str:

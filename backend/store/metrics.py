@@ -90,9 +90,7 @@ def read_metrics(
         there = [metric_steps.c.run_id == run_id]
         if not superseded:
             there += not_superseded(conn, run_id)
-        query = (
-            select(metric_steps).where(*there, metric_steps.c.id > after).order_by(metric_steps.c.id).limit(READ_LIMIT)
-        )
+        query = select(metric_steps).where(*there, metric_steps.c.id > after).order_by(metric_steps.c.id)
         steps = conn.execute(query.limit(READ_LIMIT)).all()
         if not steps:
             return MetricColumns(cursor=after)

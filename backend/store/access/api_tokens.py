@@ -8,11 +8,12 @@ from datetime import datetime, timedelta
 
 from sqlalchemy import ColumnElement, and_, func, insert, or_, select, update
 
-from backend.store.access.accounts import Account, account_of
+from backend.store.access.accounts import Account
 from backend.store.access.login_sessions import TOUCH_INTERVAL
+from backend.store.access.owners import belongs_to, read_with_owner
 from backend.store.access.roles import Role
 from backend.store.access.secret_tokens import hash_token, new_secret_token
-from backend.store.access.tables import accounts, api_tokens
+from backend.store.access.tables import api_tokens
 from backend.store.database import Database, current_time
 from backend.store.errors import NotFound, Refused
 from backend.store.tables import AnyRow
@@ -46,7 +47,11 @@ def create_token(
     token = new_secret_token()
     with db.write() as conn:
         at = current_time(conn)
-        valid = select(func.count()).select_from(api_tokens).where(_belongs_to(account_id), _is_valid(at))
+        valid = (
+            select(func.count())
+            .select_from(api_tokens)
+            .where(belongs_to(api_tokens.c.account_id, account_id), _is_valid(at))
+        )
         if conn.execute(valid).scalar_one() >= TOKENS_AT_MOST:
             raise Refused(f"There are {TOKENS_AT_MOST} tokens already; revoke one that is not used any more.")
         values = {
@@ -67,18 +72,14 @@ def find_token(db: Database, token: str) -> tuple[ApiToken, Account | None] | No
     with db.read() as conn:
         at = current_time(conn)
         query = select(api_tokens).where(api_tokens.c.token_hash == hash_token(token), _is_valid(at))
-        row = conn.execute(query).one_or_none()
-        if row is None:
-            return None
-        owner = None
-        if row.account_id is not None:
-            owner = conn.execute(select(accounts).where(accounts.c.id == row.account_id)).one()
-            if owner.disabled_at is not None:
-                return None
+        found = read_with_owner(conn, query)
+    if found is None:
+        return None
+    row, owner = found
     if row.used_at is None or at - row.used_at >= TOUCH_INTERVAL:
         with db.write() as conn:
             conn.execute(update(api_tokens).where(api_tokens.c.id == row.id).values(used_at=at))
-    return _token(row), None if owner is None else account_of(owner)
+    return _token(row), owner
 
 
 def list_tokens(db: Database, account_id: str | None) -> list[ApiToken]:
@@ -86,7 +87,7 @@ def list_tokens(db: Database, account_id: str | None) -> list[ApiToken]:
     with db.read() as conn:
         query = (
             select(api_tokens)
-            .where(_belongs_to(account_id), _is_valid(current_time(conn)))
+            .where(belongs_to(api_tokens.c.account_id, account_id), _is_valid(current_time(conn)))
             .order_by(api_tokens.c.created_at.desc())
         )
         return [_token(row) for row in conn.execute(query)]
@@ -100,14 +101,9 @@ def revoke_token(db: Database, account_id: str | None, token_id: str) -> None:
     """
     with db.write() as conn:
         at = current_time(conn)
-        this = and_(api_tokens.c.id == token_id, _belongs_to(account_id), _is_valid(at))
+        this = and_(api_tokens.c.id == token_id, belongs_to(api_tokens.c.account_id, account_id), _is_valid(at))
         if conn.execute(update(api_tokens).where(this).values(revoked_at=at)).rowcount == 0:
             raise NotFound("token", token_id)
-
-
-def _belongs_to(account_id: str | None) -> ColumnElement[bool]:
-    owner = api_tokens.c.account_id
-    return owner.is_(None) if account_id is None else owner == account_id
 
 
 def _is_valid(at: datetime) -> ColumnElement[bool]:

@@ -8,9 +8,10 @@ from datetime import datetime, timedelta
 
 from sqlalchemy import ColumnElement, Connection, and_, insert, select, update
 
-from backend.store.access.accounts import Account, account_of
+from backend.store.access.accounts import Account
+from backend.store.access.owners import belongs_to, read_with_owner
 from backend.store.access.secret_tokens import hash_token, new_secret_token
-from backend.store.access.tables import accounts, login_sessions
+from backend.store.access.tables import login_sessions
 from backend.store.database import Database, current_time
 from backend.store.errors import NotFound
 from backend.store.schema import NAME_LENGTH
@@ -65,18 +66,14 @@ def find_session(db: Database, token: str) -> tuple[LoginSession, Account | None
     with db.read() as conn:
         at = current_time(conn)
         query = select(login_sessions).where(login_sessions.c.token_hash == hash_token(token), _is_open(at))
-        row = conn.execute(query).one_or_none()
-        if row is None:
-            return None
-        owner = None
-        if row.account_id is not None:
-            owner = conn.execute(select(accounts).where(accounts.c.id == row.account_id)).one()
-            if owner.disabled_at is not None:
-                return None
+        found = read_with_owner(conn, query)
+    if found is None:
+        return None
+    row, owner = found
     if at - row.seen_at >= TOUCH_INTERVAL:
         with db.write() as conn:
             conn.execute(update(login_sessions).where(login_sessions.c.id == row.id).values(seen_at=at))
-    return _session(row), None if owner is None else account_of(owner)
+    return _session(row), owner
 
 
 def list_sessions(db: Database, account_id: str | None) -> list[LoginSession]:
@@ -84,7 +81,7 @@ def list_sessions(db: Database, account_id: str | None) -> list[LoginSession]:
     with db.read() as conn:
         query = (
             select(login_sessions)
-            .where(_belongs_to(account_id), _is_open(current_time(conn)))
+            .where(belongs_to(login_sessions.c.account_id, account_id), _is_open(current_time(conn)))
             .order_by(login_sessions.c.seen_at.desc())
         )
         return [_session(row) for row in conn.execute(query)]
@@ -98,7 +95,9 @@ def end_session(db: Database, account_id: str | None, session_id: str) -> None:
     """
     with db.write() as conn:
         at = current_time(conn)
-        this = and_(login_sessions.c.id == session_id, _belongs_to(account_id), _is_open(at))
+        this = and_(
+            login_sessions.c.id == session_id, belongs_to(login_sessions.c.account_id, account_id), _is_open(at)
+        )
         if conn.execute(update(login_sessions).where(this).values(ended_at=at)).rowcount == 0:
             raise NotFound("session", session_id)
 
@@ -112,15 +111,10 @@ def end_other_sessions(db: Database, account_id: str | None, kept: str | None) -
 def end_all(conn: Connection, account_id: str | None, kept: str | None = None) -> None:
     """Sign every browser of an account out, but one if it is named, within a transaction."""
     at = current_time(conn)
-    these = and_(_belongs_to(account_id), _is_open(at))
+    these = and_(belongs_to(login_sessions.c.account_id, account_id), _is_open(at))
     if kept is not None:
         these = and_(these, login_sessions.c.id != kept)
     conn.execute(update(login_sessions).where(these).values(ended_at=at))
-
-
-def _belongs_to(account_id: str | None) -> ColumnElement[bool]:
-    owner = login_sessions.c.account_id
-    return owner.is_(None) if account_id is None else owner == account_id
 
 
 def _is_open(at: datetime) -> ColumnElement[bool]:
