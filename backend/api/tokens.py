@@ -1,4 +1,4 @@
-"""Signed tokens that open one 3D session for some hours."""
+"""Words signed until a time; tokens made of them open one 3D session for some hours."""
 
 from __future__ import annotations
 
@@ -21,17 +21,36 @@ class BadToken(Exception):
     """Report a token that opens nothing: its text is one sentence for the user."""
 
 
+class TimedSigner:
+    """Sign a word until a time, for one purpose: what is signed for another does not read."""
+
+    def __init__(self, secret: bytes, purpose: str) -> None:
+        self._serializer = URLSafeSerializer(secret, salt=purpose)
+
+    def sign(self, word: str, ends_at: datetime) -> str:
+        """Return the word and its end, signed; the same for the same."""
+        signed = self._serializer.dumps([word, int(ends_at.timestamp())])
+        return signed.decode() if isinstance(signed, bytes) else signed
+
+    def read(self, token: str, now: datetime) -> tuple[str, bool]:
+        """Return the word, and whether its time is over.
+
+        Raises:
+            BadSignature: the token is not ours.
+        """
+        word, ends_at = self._serializer.loads(token)
+        return word, now.timestamp() >= ends_at
+
+
 class ViewerTokens:
     """Sign and read tokens. The same session always gets the same token, so that its url stays as it is."""
 
     def __init__(self, secret: bytes) -> None:
-        self._serializer = URLSafeSerializer(secret, salt="viewer-session")
+        self._signer = TimedSigner(secret, "viewer-session")
 
     def sign(self, session_id: str, created_at: datetime) -> str:
         """Return the token of a session."""
-        ends_at = created_at + TOKEN_LIFETIME
-        signed = self._serializer.dumps([session_id, int(ends_at.timestamp())])
-        return signed.decode() if isinstance(signed, bytes) else signed
+        return self._signer.sign(session_id, created_at + TOKEN_LIFETIME)
 
     def read(self, token: str) -> str:
         """Return the session that a token opens.
@@ -40,10 +59,10 @@ class ViewerTokens:
             BadToken: the token is not ours, or too old.
         """
         try:
-            session_id, ends_at = self._serializer.loads(token)
+            session_id, is_over = self._signer.read(token, datetime.now(UTC))
         except BadSignature as error:
             raise BadToken("This address of a 3D view is not valid; open the view from its run's page.") from error
-        if datetime.now(UTC).timestamp() >= ends_at:
+        if is_over:
             raise BadToken("This address of a 3D view has expired; open the view again from its run's page.")
         return session_id
 

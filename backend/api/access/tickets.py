@@ -7,8 +7,10 @@ from __future__ import annotations
 
 from datetime import UTC, datetime, timedelta
 
-from itsdangerous import BadSignature, URLSafeSerializer
+from itsdangerous import BadSignature
 from starlette.requests import HTTPConnection
+
+from backend.api.tokens import TimedSigner
 
 LIFETIME = timedelta(minutes=10)
 """Longer than a page needs from hearing of a file to fetching all of it."""
@@ -20,20 +22,19 @@ class Tickets:
     """Sign and read tickets."""
 
     def __init__(self, secret: bytes) -> None:
-        self._serializer = URLSafeSerializer(secret, salt="ticket")
+        self._signer = TimedSigner(secret, "ticket")
 
     def sign(self, path: str, now: datetime) -> str:
         """Return what opens this path from now on."""
-        signed = self._serializer.dumps([path, int((now + LIFETIME).timestamp())])
-        return signed.decode() if isinstance(signed, bytes) else signed
+        return self._signer.sign(path, now + LIFETIME)
 
     def open(self, ticket: str, path: str, now: datetime) -> bool:
         """Tell whether a ticket opens this path."""
         try:
-            signed_path, ends_at = self._serializer.loads(ticket)
+            signed_path, is_over = self._signer.read(ticket, now)
         except BadSignature:
             return False
-        return signed_path == path and now.timestamp() < ends_at
+        return signed_path == path and not is_over
 
 
 def opens_by_ticket(tickets: Tickets, connection: HTTPConnection) -> bool:
