@@ -8,21 +8,23 @@ every=(lint format imports types client web-check web-test pytest)
 wanted=("$@")
 [[ ${1:-all} != all ]] || wanted=("${every[@]}" "${@:2}")
 # Tests wait for other processes much of the time, and these fill it; what they say is kept until their turn comes.
+# They give way, as tests have deadlines and these have none.
 beside_pytest=(types web-check web-test)
+giving_way=(nice -n 10)
 client="web/src/client/schema.gen.ts"
 
 check_lint() { .venv/bin/ruff check; }
 check_format() { .venv/bin/ruff format --check; }
 check_imports() { .venv/bin/lint-imports; }
-check_types() { .venv/bin/pyright; }
-check_web-check() { npm --prefix web run --silent check; }
-check_web-test() { npm --prefix web run --silent test; }
+check_types() { "${giving_way[@]}" .venv/bin/pyright; }
+check_web-check() { "${giving_way[@]}" npm --prefix web run --silent check; }
+check_web-test() { "${giving_way[@]}" npm --prefix web run --silent test; }
 
 check_pytest() {
     SLDR_CHROMIUM=$(.ci/find-chromium.sh) || return
     export SLDR_CHROMIUM
-    # Most tests wait for other processes, so a third one finds time; tests/conftest.py says what stays together.
-    .venv/bin/pytest --numprocesses $(($(nproc) + 1)) --dist loadfile --no-loadscope-reorder \
+    # Many tests wait for other processes, so two more find time; tests/conftest.py says what stays together.
+    .venv/bin/pytest --numprocesses $(($(nproc) + 2)) --dist loadfile --no-loadscope-reorder \
         --durations 25 --durations-min 5 && return
     # Deadlines can pass on a machine that is busy elsewhere, so what failed beside others is asked once more, alone.
     echo "== pytest, only what has just failed, one after the other"

@@ -28,33 +28,58 @@ CHROMIUM_ARGUMENTS = [
 # What a launch queues, and what a page offers, must not depend on what is shipped.
 os.environ["SLDR_ZOO"] = os.environ["SLDR_SAMPLE_STUDY"] = "/nonexistent"
 
-LONGEST_FIRST = ("browser", "cluster", "chaos", "worker", "core", "cli", "viewer")
-"""Rooms that take long begin first, so that at the end no process is left alone with one of their files."""
+TOGETHER = {
+    "cluster": ("cluster/test_*.py",),
+    "whole product": (
+        "browser/test_first_run.py",
+        "browser/test_pause_and_delete.py",
+        "browser/test_study.py",
+        "browser/test_transport.py",
+    ),
+    "pages": ("browser/test_*.py",),
+}
+"""Files that share what is dear to start - a cluster, a service that trains and draws, a browser - stay in one process.
+The first that fits counts."""
+
+LONGEST_FIRST = (
+    "whole product",
+    "cluster",
+    "chaos",
+    "worker",
+    "core",
+    "security",
+    "pages",
+    "cli",
+    "viewer",
+    "media",
+    "tasks",
+)
+"""What takes long begins first, so that at the end no process is left alone with it: those above, and rooms."""
 
 
-ONE_PROCESS = ("browser", "cluster")
-"""Rooms that share what is dear to start: a whole service, a cluster."""
+def share_of(file: Path) -> str | None:
+    """Return with which others a file's tests stay in one process; None if they need nobody."""
+    return next((name for name, patterns in TOGETHER.items() if any(map(file.match, patterns))), None)
 
 
 class RoomScheduling(LoadFileScheduling):
-    """Keep each file in one process, and these rooms as a whole."""
+    """Keep each file in one process, and with it those that share something."""
 
     def _split_scope(self, nodeid: str) -> str:
         file = nodeid.partition("::")[0]
-        room = Path(file).parent.name
-        return room if room in ONE_PROCESS else file
+        return share_of(Path(file)) or file
 
 
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> RoomScheduling:
-    """Hand out tests by rooms and files."""
+    """Hand out tests by what they share, and by files."""
     return RoomScheduling(config, log)
 
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Order tests by their rooms; within a room they stay as they were."""
-    rank = {room: place for place, room in enumerate(LONGEST_FIRST)}
-    items.sort(key=lambda item: rank.get(item.path.parent.name, len(rank)))
+    """Order tests by what takes long; besides they stay as they were."""
+    rank = {name: place for place, name in enumerate(LONGEST_FIRST)}
+    items.sort(key=lambda item: rank.get(share_of(item.path) or item.path.parent.name, len(rank)))
 
 
 @pytest.fixture(scope="session")

@@ -20,6 +20,8 @@ import pytest
 
 FIND = Path(__file__).parents[1] / ".ci" / "find-postgres.sh"
 USER = "sldr"
+OURS = "tests"
+"""What our own connections call themselves, which stay open."""
 PATIENCE_S = 60.0
 PARTING_S = 1.0
 """How long connections may take to end before their database is given up [s]."""
@@ -46,6 +48,7 @@ class PostgresServer:
             os.chown(self._directory, self._account.pw_uid, self._account.pw_gid)
         self._process: subprocess.Popen[bytes] | None = None
         self._numbers = count()
+        self._connections: dict[str, psycopg.Connection] = {}
         self._password = secrets.token_hex()
         password = self._directory / "password.txt"
         password.write_text(self._password)
@@ -76,7 +79,8 @@ class PostgresServer:
         give_up_at = time.monotonic() + PATIENCE_S
         while True:
             try:
-                return self._connect().close()
+                self._connected()
+                return
             except psycopg.OperationalError:
                 assert self._process.poll() is None, self._log()
                 assert time.monotonic() < give_up_at, self._log()
@@ -85,6 +89,8 @@ class PostgresServer:
     def stop(self, by: signal.Signals = signal.SIGINT) -> None:
         """End the server, whoever is connected: in good order, or with SIGQUIT as if it crashed."""
         assert self._process is not None
+        for name in list(self._connections):
+            self._connections.pop(name).close()
         self._process.send_signal(by)
         self._process.wait(PATIENCE_S)
 
@@ -96,36 +102,39 @@ class PostgresServer:
 
     def drop_database(self, name: str) -> None:
         """Remove a database, whoever is still connected to it."""
+        if name in self._connections:
+            self._connections.pop(name).close()
         self._execute(f"DROP DATABASE {name} WITH (FORCE)")
 
     def empty_database(self, name: str, revision: str) -> bool:
         """Remove every row of a store; tell if it is as good as new, with tables of this revision and nobody on it."""
         if not self._is_left_alone(name):
             return False
-        with self._connect(name) as connection:
-            if connection.execute("SELECT version_num FROM alembic_version").fetchall() != [(revision,)]:
-                return False
-            tables = "SELECT tablename FROM pg_tables WHERE schemaname = 'public' AND tablename <> 'alembic_version'"
-            names = [row[0] for row in connection.execute(tables)]
-            held = " UNION ALL ".join(f"SELECT '{table}' WHERE EXISTS (SELECT FROM {table})" for table in names)
-            filled = [row[0] for row in connection.execute(held.encode())]
-            connection.execute("SET session_replication_role = replica")  # rows may go in any order
-            for table in filled:
-                connection.execute(f"DELETE FROM {table}".encode())
-            connection.execute(
-                "SELECT setval(format('%I', sequencename)::regclass, start_value, false) "
-                "FROM pg_sequences WHERE last_value IS NOT NULL"
-            )
+        connection = self._connected(name)
+        if connection.execute("SELECT version_num FROM alembic_version").fetchall() != [(revision,)]:
+            return False
+        tables = "SELECT tablename FROM pg_tables WHERE schemaname = 'public' AND tablename <> 'alembic_version'"
+        names = [row[0] for row in connection.execute(tables)]
+        held = " UNION ALL ".join(f"SELECT '{table}' WHERE EXISTS (SELECT FROM {table})" for table in names)
+        filled = [row[0] for row in connection.execute(held.encode())]
+        connection.execute("SET session_replication_role = replica")  # rows may go in any order
+        for table in filled:
+            connection.execute(f"DELETE FROM {table}".encode())
+        connection.execute(
+            "SELECT setval(format('%I', sequencename)::regclass, start_value, false) "
+            "FROM pg_sequences WHERE last_value IS NOT NULL"
+        )
         return True
 
     def _is_left_alone(self, name: str) -> bool:
-        """Wait a little for connections to end; tell if none is left."""
+        """Wait a little for connections other than ours to end; tell if none is left."""
+        others = "SELECT 1 FROM pg_stat_activity WHERE datname = %s AND application_name <> %s"
+        connection = self._connected(name)
         give_up_at = time.monotonic() + PARTING_S
-        with self._connect() as connection:
-            while connection.execute("SELECT 1 FROM pg_stat_activity WHERE datname = %s", [name]).fetchone():
-                if time.monotonic() > give_up_at:
-                    return False
-                time.sleep(0.005)
+        while connection.execute(others, [name, OURS]).fetchone():
+            if time.monotonic() > give_up_at:
+                return False
+            time.sleep(0.005)
         return True
 
     def remove(self) -> None:
@@ -151,12 +160,14 @@ class PostgresServer:
         return (self._directory / "log.txt").read_text()
 
     def _execute(self, statement: str) -> None:
-        with self._connect() as connection:
-            connection.execute(statement.encode())
+        self._connected().execute(statement.encode())
 
-    def _connect(self, name: str = "postgres") -> psycopg.Connection:
-        address = {"host": "127.0.0.1", "port": self._port, "user": USER, "password": self._password}
-        return psycopg.connect(**address, dbname=name, autocommit=True)
+    def _connected(self, name: str = "postgres") -> psycopg.Connection:
+        """Return our connection to a database, which stays open: to make one takes longer than what it is asked."""
+        if name not in self._connections:
+            address = {"host": "127.0.0.1", "port": self._port, "user": USER, "password": self._password}
+            self._connections[name] = psycopg.connect(**address, dbname=name, autocommit=True, application_name=OURS)
+        return self._connections[name]
 
 
 def _find_programs() -> Path:
