@@ -8,15 +8,10 @@ from pathlib import Path
 
 import pytest
 from live_api import Service, serving_client
+from store_engines import SqliteStores
 
 from backend.api.app import create_app
-from backend.store.settings import Settings, sqlite_url
-
-
-@pytest.fixture
-def settings(tmp_path: Path) -> Settings:
-    """Return a fresh data directory."""
-    return Settings(home=tmp_path, database_url=sqlite_url(tmp_path))
+from backend.store.settings import Settings
 
 
 @pytest.fixture
@@ -33,18 +28,18 @@ def service(settings: Settings, built_page: Path) -> Iterator[Service]:
 
 
 @pytest.fixture(scope="session")
-def unused_service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+def unused_service(sqlite_stores: SqliteStores, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
     """Return the API over an empty store, for tests that leave it empty."""
     home = tmp_path_factory.mktemp("unused")
-    with _open(Settings(home=home, database_url=sqlite_url(home)), home / "dist") as service:
+    with sqlite_stores.fresh(home) as settings, _open(settings, home / "dist") as service:
         yield service
 
 
 @pytest.fixture(scope="module")
-def module_service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+def module_service(sqlite_stores: SqliteStores, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
     """Return the API over a store that the tests of one file share."""
     home = tmp_path_factory.mktemp("shared")
-    with _open(Settings(home=home, database_url=sqlite_url(home)), home / "dist") as service:
+    with sqlite_stores.fresh(home) as settings, _open(settings, home / "dist") as service:
         yield service
 
 

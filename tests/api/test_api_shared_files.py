@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from live_api import Service, problem_fields
+from store_engines import Stores
 
 from backend.store.claims import Claim
 from backend.store.files import find_file, register_file
-from backend.store.settings import Settings, sqlite_url
+from backend.store.settings import Settings
 from backend.store.storage import FileStorage, checksum
 
 CONTENT = bytes(range(256)) * 8
@@ -18,9 +20,11 @@ NAME = "policy-best.pt"
 
 
 @pytest.fixture
-def settings(tmp_path: Path) -> Settings:
+def settings(stores: Stores, tmp_path: Path) -> Iterator[Settings]:
     home = tmp_path / "here"
-    return Settings(home=home, database_url=sqlite_url(home), files_url=f"file://{tmp_path}/shared")
+    home.mkdir()
+    with stores.fresh(home) as settings:
+        yield replace(settings, files_url=f"file://{tmp_path}/shared")
 
 
 @pytest.fixture

@@ -23,17 +23,12 @@ from websockets.typing import Subprotocol
 from backend.store import viewer_sessions
 from backend.store.database import Database, open_database
 from backend.store.launches import LaunchOrder, launch
-from backend.store.settings import Settings, sqlite_url
+from backend.store.settings import Settings
 from sldr_core.config import TASKS
 from worker.viewer.host import Host, Limits
 from worker.viewer.process import serve_session
 
 PATIENCE_S = 60.0
-
-
-@pytest.fixture
-def settings(tmp_path: Path) -> Settings:
-    return Settings(home=tmp_path, database_url=sqlite_url(tmp_path))
 
 
 @pytest.fixture
