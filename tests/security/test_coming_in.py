@@ -6,8 +6,10 @@ import json
 import logging
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Literal
 
 import pytest
+from argon2 import PasswordHasher, extract_parameters
 from guarded_api import CHEAP, PASSWORD, Guarded
 from live_api import new_client, serving
 
@@ -154,6 +156,23 @@ def test_passwords_are_kept_as_argon2id_with_the_parameters_that_are_promised():
     assert not passwords.matches(None, "the password of an account that does not exist")
     assert not passwords.matches("no hash", PASSWORD)
     assert (passwords.is_outdated(stored), passwords.is_outdated(CHEAP.hash("x"))) == (False, True)
+
+
+def test_an_account_that_does_not_exist_takes_as_long_to_refuse():
+    compared: list[str] = []
+
+    class Watched(PasswordHasher):
+        def verify(self, hash: str | bytes, password: str | bytes) -> Literal[True]:
+            compared.append(str(hash))
+            return super().verify(hash, password)
+
+    passwords = Passwords(Watched(time_cost=1, memory_cost=8, parallelism=1))
+    stored = passwords.hash(PASSWORD)
+    assert not passwords.matches(stored, "another")
+    assert not passwords.matches(None, "another")
+    ours, nobodys = compared
+    assert extract_parameters(nobodys) == extract_parameters(ours)
+    assert nobodys != stored
 
 
 @pytest.mark.parametrize("password", ["short", "a" * 300, "aaaaaaaaaaaaaaaa", "adaadaadaada", "ada123456789!"])

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import threading
+from base64 import b64encode
+from secrets import token_bytes
 
 from argon2 import PasswordHasher
 from argon2.exceptions import InvalidHashError, VerificationError
+from argon2.low_level import ARGON2_VERSION
 
 SHORTEST_PASSWORD = 12
 """Characters; length is what counts, so nothing else is asked for."""
@@ -29,7 +32,7 @@ class Passwords:
     def __init__(self, hasher: PasswordHasher | None = None) -> None:
         self._hasher = hasher or PasswordHasher(TIME_COST, MEMORY_KIB, LANES)
         self._turns = threading.BoundedSemaphore(AT_ONCE)
-        self._nobodys = self._hasher.hash("the password of an account that does not exist")
+        self._nobodys = _hash_of_nothing(self._hasher)
 
     def hash(self, password: str) -> str:
         """Return what is stored of a password."""
@@ -48,6 +51,13 @@ class Passwords:
     def is_outdated(self, stored: str) -> bool:
         """Tell whether a password was stored with other parameters than today's."""
         return self._hasher.check_needs_rehash(stored)
+
+
+def _hash_of_nothing(hasher: PasswordHasher) -> str:
+    """Return what no password fits: drawn, not made, for a service should not begin with the work of a hash."""
+    salt, digest = (b64encode(token_bytes(size)).decode().rstrip("=") for size in (hasher.salt_len, hasher.hash_len))
+    costs = f"m={hasher.memory_cost},t={hasher.time_cost},p={hasher.parallelism}"
+    return f"$argon2id$v={ARGON2_VERSION}${costs}${salt}${digest}"
 
 
 def find_weakness(name: str, password: str) -> str | None:
