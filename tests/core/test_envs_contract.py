@@ -58,6 +58,14 @@ def test_shapes_and_types_are_those_of_the_task(actor: dict[str, Any]) -> None:
     assert now.obs.dtype == now.achieved.dtype == now.goal.dtype == np.float64
 
 
+def test_whoever_changes_a_scene_changes_it_for_nobody_else() -> None:
+    changed = make_envs("FetchPush").simulation.model
+    before = changed.site_pos.copy()
+    changed.site_pos[:] = 7.0
+
+    np.testing.assert_array_equal(make_envs("FetchPush").simulation.model.site_pos, before)
+
+
 @every_actor
 def test_a_whole_episode_of_random_actions_stays_finite(actor: dict[str, Any]) -> None:
     envs = make_envs("FetchPush", num_envs=2, **actor)

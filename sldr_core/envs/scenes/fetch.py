@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sldr_core.config import FetchScene, TableScene
+from sldr_core.envs.scenes.once import compiled_once
 from sldr_core.envs.scenes.welds import (
     SUBSTEPS,
     add_object_weld,
@@ -51,7 +52,8 @@ class FetchStart:
     """Height of the first object's centre when it lies on the table [m]."""
 
 
-def build_fetch(scene: FetchScene, acted: Sequence[int], has_robot: bool, torque_scale: float) -> mujoco.MjModel:
+@compiled_once
+def build_fetch(scene: FetchScene, acted: tuple[int, ...], has_robot: bool, torque_scale: float) -> mujoco.MjModel:
     """Build the scene with one object: in manipulation it is the reference's model, unchanged."""
     return build_table(load_model(scene.model_file), acted, has_robot, torque_scale)
 

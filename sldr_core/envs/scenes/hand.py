@@ -7,6 +7,7 @@ import copy
 import mujoco
 
 from sldr_core.config import HandScene
+from sldr_core.envs.scenes.once import compiled_once
 from sldr_core.envs.scenes.welds import add_object_weld, load_model, straighten_welds
 
 OBJECT = "object"
@@ -16,6 +17,7 @@ TARGET = "target"
 """The body that shows the goal; nothing touches it."""
 
 
+@compiled_once
 def build_hand(scene: HandScene, object_acts: bool, torque_scale: float) -> mujoco.MjModel:
     """Build the reference's scene, with a mocap body welded to the object if that acts.
 

@@ -9,6 +9,7 @@ import mujoco
 from sldr_core.config import StackScene
 from sldr_core.envs.scenes.blocks import JOINT_DAMPING, add_block, colour_blocks
 from sldr_core.envs.scenes.fetch import FetchStart, build_table, settle_table
+from sldr_core.envs.scenes.once import compiled_once
 from sldr_core.envs.scenes.welds import load_model
 
 WALL_HALF_THICKNESS = 0.01
@@ -18,6 +19,7 @@ SETTLING_DISTANCE = 0.1
 """From one block to the next while the scene settles [m]."""
 
 
+@compiled_once
 def build_stack(scene: StackScene, has_robot: bool = True) -> mujoco.MjModel:
     """Build the scene with its robot, as nothing else acts in it, or without, to be looked at."""
     spec = load_model(scene.model_file)

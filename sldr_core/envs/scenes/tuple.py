@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import lru_cache
 
 import mujoco
@@ -10,6 +9,7 @@ import mujoco
 from sldr_core.config import TupleScene
 from sldr_core.envs.scenes.blocks import BLOCK_SIDE, JOINT_DAMPING, add_block, colour_blocks
 from sldr_core.envs.scenes.fetch import FetchStart, build_table, settle_table
+from sldr_core.envs.scenes.once import compiled_once
 from sldr_core.envs.scenes.welds import load_model
 
 __all__ = ["BLOCK_SIDE", "build_tuple", "settle_tuple"]
@@ -18,7 +18,8 @@ _EDGE_HEIGHT = {"top": BLOCK_SIDE / 2, "bottom": -BLOCK_SIDE / 2}
 """Height of a hinge's axis above a block's middle [m]."""
 
 
-def build_tuple(scene: TupleScene, acted: Sequence[int], has_robot: bool, torque_scale: float) -> mujoco.MjModel:
+@compiled_once
+def build_tuple(scene: TupleScene, acted: tuple[int, ...], has_robot: bool, torque_scale: float) -> mujoco.MjModel:
     """Build the scene; blocks `acted` are welded to mocap bodies."""
     spec = load_model(scene.model_file)
     block = spec.body("object0")
