@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
+from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 
-from fastapi import Depends, FastAPI
+from fastapi import APIRouter, Depends, FastAPI
 from fastapi.routing import APIRoute
 from prometheus_client import CollectorRegistry
 from starlette.middleware.body_limit import RequestBodyLimitMiddleware
@@ -126,12 +127,20 @@ def create_app(
         generate_unique_id_function=_operation_id,
         lifespan=_lifespan(settings, mode, passwords),
     )
-    for routes in ROUTES:
-        app.include_router(routes.router, dependencies=[Depends(check_access)])
+    app.router.routes.extend(_guarded_routes().routes)
     add_pages(app, page)
     add_error_answers(app)
     _add_guards(app, hosts)
     return app
+
+
+@cache
+def _guarded_routes() -> APIRouter:
+    """Put all routes behind the gate; applications of one process share them, as FastAPI takes long to prepare them."""
+    guarded = APIRouter(generate_unique_id_function=_operation_id)
+    for routes in ROUTES:
+        guarded.include_router(routes.router, dependencies=[Depends(check_access)])
+    return guarded
 
 
 def _add_guards(app: FastAPI, hosts: HostRule) -> None:
