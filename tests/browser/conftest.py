@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Generator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from PIL import Image
@@ -42,11 +43,22 @@ def leave_to_draw(home: Path, task: str) -> None:
 
 
 @pytest.fixture
+def new_context(new_context: Callable[..., BrowserContext]) -> Callable[..., BrowserContext]:
+    """Return a way to get browsers that spare the processor."""
+
+    def make(**options: Any) -> BrowserContext:
+        context = new_context(**options)
+        context.add_init_script(FEW_FRAMES)
+        return context
+
+    return make
+
+
+@pytest.fixture
 def context(new_context: Callable[..., BrowserContext]) -> BrowserContext:
     """Return a browser that is signed in to everything that is served."""
     context = new_context()
     context.add_cookies(cookies())  # type: ignore[arg-type]
-    context.add_init_script(FEW_FRAMES)
     return context
 
 
