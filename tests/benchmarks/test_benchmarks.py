@@ -10,6 +10,7 @@ import sac_peer
 from bench_epoch import Epoch
 from bench_quality import compare_quality, measure_quality
 from bench_rows import Pairs, Stopwatch, Target, row, seconds_until
+from bench_service import with_imports
 from sac_peer import PeerCurve
 
 INFINITY = float("inf")
@@ -111,6 +112,15 @@ def test_quality_is_compared_with_the_lower_quartile(capsys: pytest.CaptureFixtu
     assert not compared["FetchPush, her, `paper` in bfloat16: test success"].is_met
     assert len(compared) == 2
     assert "`quick` in bfloat16 has 1 runs, `paper` in float32 has 5" in capsys.readouterr().out
+
+
+def test_the_first_page_weighs_what_it_imports_at_once(tmp_path: Path) -> None:
+    files = {name: tmp_path / name for name in ("entry.js", "frame.js", "used.js", "later.js", "style.css")}
+    files["entry.js"].write_text('import{a}from"./frame.js";import"./used.js";const b=()=>import("./later.js");')
+    files["frame.js"].write_text('import{c}from"./used.js";export*from"./entry.js";')
+    files["used.js"].write_text("")
+    expected = {files[name] for name in ("entry.js", "frame.js", "used.js", "style.css")}
+    assert with_imports([files["entry.js"], files["style.css"]]) == expected
 
 
 def test_quality_without_a_store_says_so(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
