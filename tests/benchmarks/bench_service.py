@@ -101,7 +101,7 @@ def _api_memory(parent: int) -> int:
 
 
 def _page_weight() -> int:
-    """Return the gzipped size of the page, of what it names or preloads, and of the runs page with its imports [bytes]."""
+    """Return the gzipped size of the page, of what it names, and of the runs page, with their imports [bytes]."""
     page = BUILT_PAGE / "index.html"
     named = re.findall(r'(?:src|href)="/([^"]+\.(?:js|css))"', page.read_text())
     first = [page, *(BUILT_PAGE / name for name in named), *BUILT_PAGE.glob(FIRST_PAGE)]

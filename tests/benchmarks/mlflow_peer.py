@@ -134,7 +134,7 @@ class Peer:
             yield models.SqlLatestMetric, row
 
     def _insert(self, tables: dict[Any, list[dict[str, Any]]]) -> None:
-        with self._store.ManagedSessionMaker() as session:
+        with self._store.ManagedSessionMaker(read_only=False) as session:
             for table in (models.SqlRun, models.SqlParam, models.SqlMetric, models.SqlLatestMetric):
                 session.execute(table.__table__.insert(), tables[table])
 
