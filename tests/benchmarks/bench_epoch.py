@@ -42,7 +42,7 @@ PLACES: Mapping[str, Sequence[Place]] = {
     "sampling": [(HindsightSampler, "sample")],
     "storing": [(cycle, "store")],
     "checking": [(cycle, "check_update"), (loop, "check_weights")],
-    "files": [(DirectoryRecorder, "save_file"), (DirectoryRecorder, "record_episodes"), (EpisodeRecording, "record")],
+    "files": [(DirectoryRecorder, "save_file"), (EpisodeRecording, "record")],
 }
 """What is timed, by what it is called here; `observing` holds the physics that it asks for."""
 
