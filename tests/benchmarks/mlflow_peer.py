@@ -3,6 +3,8 @@
 It runs in an environment that has MLflow and nothing of this product. Each answer tells how long the question took.
 """
 
+# pyright: reportMissingImports=false
+
 from __future__ import annotations
 
 import json
