@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Generator
 from pathlib import Path
 
@@ -63,4 +64,14 @@ def filled_product(tmp_path_factory: pytest.TempPathFactory, find_free_port: Cal
     launch(database, LaunchOrder("FetchPush", "manipulation", "ddpg", (0, 1), "quick"))
     database.close()
     with serving(home, find_free_port(), PAGE_AND_API) as address:
+        yield address
+
+
+@pytest.fixture(scope="module")
+def printed_address(tmp_path_factory: pytest.TempPathFactory, find_free_port: Callable[[], int]) -> Generator[str]:
+    """Serve an empty data directory as `make run` does; return the address that is printed, with its token."""
+    home = tmp_path_factory.mktemp("first")
+    leave_to_draw(home, DRAWN)
+    with serving(home, find_free_port(), WHOLE, needs=("workers_alive", "viewer_alive")):
+        [address] = re.findall(r"http://\S+\?token=\S+", (home / "serve.log").read_text())
         yield address

@@ -1,10 +1,12 @@
 /** All runs, live: a table that is filtered, sorted, grouped and labelled on the server. */
+
 import { useMediaQuery } from '@mantine/hooks';
 import { getRouteApi } from '@tanstack/react-router';
 import { useCallback, useState } from 'react';
 import { ButtonLink } from '@/components/anchor-link';
 import { Freshness } from '@/components/freshness';
 import { Icon } from '@/components/icon';
+import { OnlyFor } from '@/components/only-for';
 import { SentencePanel } from '@/components/sentence-panel';
 import { sentence } from '@/lib/api';
 import { formatPlural } from '@/lib/format';
@@ -56,9 +58,11 @@ export function RunsPage() {
         <h1>{search.deleted ? 'Deleted runs' : 'Runs'}</h1>
         <span className="faint number">{total !== undefined && formatPlural(total, 'run')}</span>
         <Freshness updatedAt={lines.updatedAt} />
-        <ButtonLink to="/launch" leftSection={<Icon name="launch" size={14} />} ml="auto">
-          New run
-        </ButtonLink>
+        <OnlyFor least="operator">
+          <ButtonLink to="/launch" leftSection={<Icon name="launch" size={14} />} ml="auto">
+            New run
+          </ButtonLink>
+        </OnlyFor>
       </div>
       <search className={classes.tools}>
         <SearchField search={search} onChange={change} />

@@ -1,9 +1,11 @@
 /** All studies, live. */
+
 import { useQuery } from '@tanstack/react-query';
 import { getRouteApi } from '@tanstack/react-router';
 import { AnchorLink, ButtonLink } from '@/components/anchor-link';
 import { Freshness } from '@/components/freshness';
 import { Icon } from '@/components/icon';
+import { OnlyFor } from '@/components/only-for';
 import { OpenSample } from '@/components/open-sample';
 import { SampleStudy } from '@/components/sample-study';
 import { SentencePanel } from '@/components/sentence-panel';
@@ -28,9 +30,11 @@ export function StudiesPage() {
           <AnchorLink to="/studies" search={{ deleted: isDeleted ? undefined : 'yes' }} fz="sm">
             {isDeleted ? 'All other studies' : 'Deleted studies'}
           </AnchorLink>
-          <ButtonLink to="/studies/new" leftSection={<Icon name="launch" size={14} />}>
-            New study
-          </ButtonLink>
+          <OnlyFor least="operator">
+            <ButtonLink to="/studies/new" leftSection={<Icon name="launch" size={14} />}>
+              New study
+            </ButtonLink>
+          </OnlyFor>
         </span>
       </div>
       {error && !data && (
@@ -57,9 +61,11 @@ function NoStudies() {
       title="Nothing has been compared yet"
       actions={
         <>
-          <ButtonLink to="/studies/new" size="lg" variant="default">
-            Choose what to compare
-          </ButtonLink>
+          <OnlyFor least="operator">
+            <ButtonLink to="/studies/new" size="lg" variant="default">
+              Choose what to compare
+            </ButtonLink>
+          </OnlyFor>
           <OpenSample />
           <SampleStudy />
         </>

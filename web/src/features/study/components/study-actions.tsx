@@ -1,10 +1,12 @@
 /** What can be done with a study: compare, fill, retry, add to it, copy, delete and bring back. */
+
 import { Button } from '@mantine/core';
 import { useDisclosure } from '@mantine/hooks';
 import type { StudyDetail } from '@/client/schema.gen';
 import { ButtonLink } from '@/components/anchor-link';
 import { Icon } from '@/components/icon';
 import { useToast } from '@/components/toasts';
+import { useMay } from '@/lib/access';
 import { sentence } from '@/lib/api';
 import { type StudyWish, useStudyAction } from '@/lib/use-study-action';
 import { AddDialog } from './add-dialog';
@@ -14,6 +16,7 @@ import classes from './study.module.css';
 export function StudyActions({ study }: { study: StudyDetail }) {
   const toast = useToast();
   const wishes = useStudyAction();
+  const isMine = useMay('operator');
   const [isAdding, adding] = useDisclosure(false);
   const [isEditing, editing] = useDisclosure(false);
   const send = (wish: StudyWish, undo?: () => void): void =>
@@ -26,6 +29,7 @@ export function StudyActions({ study }: { study: StudyDetail }) {
   const missing = study.cells.reduce((sum, cell) => sum + cell.missing_seeds.length, 0);
   const count = (state: 'failed' | 'cancelled'): number =>
     (study.states[state] ?? 0) + study.locomotion.filter((run) => run.state === state).length;
+  if (!isMine) return <Compare study={study} />;
   if (study.deleted_at !== null) {
     return (
       <span className={classes.actions}>
@@ -37,9 +41,7 @@ export function StudyActions({ study }: { study: StudyDetail }) {
   }
   return (
     <span className={classes.actions}>
-      <ButtonLink to="/compare" search={{ study: study.id }} size="xs" leftSection={<Icon name="chart" size={14} />}>
-        Compare
-      </ButtonLink>
+      <Compare study={study} />
       {missing > 0 && (
         <Button size="xs" variant="light" loading={wishes.isPending} onClick={() => act('fill')}>
           Fill {missing} missing
@@ -75,5 +77,13 @@ export function StudyActions({ study }: { study: StudyDetail }) {
       <AddDialog study={study} isOpen={isAdding} onClose={adding.close} onSend={send} />
       <EditDialog study={study} isOpen={isEditing} onClose={editing.close} onSend={send} />
     </span>
+  );
+}
+
+function Compare({ study }: { study: StudyDetail }) {
+  return (
+    <ButtonLink to="/compare" search={{ study: study.id }} size="xs" leftSection={<Icon name="chart" size={14} />}>
+      Compare
+    </ButtonLink>
   );
 }
