@@ -29,7 +29,7 @@ router = APIRouter(prefix="/api/runs/{run_id}/episodes", tags=["runs"])
 
 
 @router.get("", responses=problem_responses(404, 422))
-@needs("viewer")
+@needs("viewer", shared=True)
 def list_run_episodes(
     run_id: str,
     store: Store,

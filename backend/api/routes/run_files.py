@@ -32,7 +32,7 @@ router = APIRouter(prefix="/api/runs/{run_id}", tags=["runs"])
 
 
 @router.get("/log", responses=problem_responses(404, 422))
-@needs("viewer")
+@needs("viewer", shared=True)
 def get_run_log(
     run_id: str,
     store: Store,

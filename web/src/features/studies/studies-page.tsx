@@ -13,6 +13,7 @@ import { sentence } from '@/lib/api';
 import { studiesQuery } from '@/lib/studies';
 import classes from './components/studies.module.css';
 import { StudyRow } from './components/study-row';
+import { UploadStudy } from './components/upload-study';
 
 const route = getRouteApi('/studies');
 
@@ -31,6 +32,7 @@ export function StudiesPage() {
             {isDeleted ? 'All other studies' : 'Deleted studies'}
           </AnchorLink>
           <OnlyFor least="operator">
+            <UploadStudy />
             <ButtonLink to="/studies/new" leftSection={<Icon name="launch" size={14} />}>
               New study
             </ButtonLink>

@@ -29,7 +29,7 @@ export function StudyActions({ study }: { study: StudyDetail }) {
   const missing = study.cells.reduce((sum, cell) => sum + cell.missing_seeds.length, 0);
   const count = (state: 'failed' | 'cancelled'): number =>
     (study.states[state] ?? 0) + study.locomotion.filter((run) => run.state === state).length;
-  if (!isMine) return <Compare study={study} />;
+  if (!isMine) return <Ways study={study} />;
   if (study.deleted_at !== null) {
     return (
       <span className={classes.actions}>
@@ -41,7 +41,7 @@ export function StudyActions({ study }: { study: StudyDetail }) {
   }
   return (
     <span className={classes.actions}>
-      <Compare study={study} />
+      <Ways study={study} />
       {missing > 0 && (
         <Button size="xs" variant="light" loading={wishes.isPending} onClick={() => act('fill')}>
           Fill {missing} missing
@@ -80,10 +80,23 @@ export function StudyActions({ study }: { study: StudyDetail }) {
   );
 }
 
-function Compare({ study }: { study: StudyDetail }) {
+/** What everybody may do: look at its curves, and take it along. */
+function Ways({ study }: { study: StudyDetail }) {
   return (
-    <ButtonLink to="/compare" search={{ study: study.id }} size="xs" leftSection={<Icon name="chart" size={14} />}>
-      Compare
-    </ButtonLink>
+    <>
+      <ButtonLink to="/compare" search={{ study: study.id }} size="xs" leftSection={<Icon name="chart" size={14} />}>
+        Compare
+      </ButtonLink>
+      <Button
+        component="a"
+        href={`/api/study-files/${study.id}`}
+        download
+        size="xs"
+        variant="default"
+        title="One file with the runs that have succeeded, for another installation"
+      >
+        Export
+      </Button>
+    </>
   );
 }
