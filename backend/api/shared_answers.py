@@ -53,7 +53,7 @@ class Answer:
 
 
 class SharedAnswers:
-    """Give an answer again while it is young enough for whoever asks. It stands behind the gate: nobody passes unknown."""
+    """Give an answer again while it is young enough for whoever asks; it stands behind the gate."""
 
     def __init__(self, app: ASGIApp) -> None:
         self._app = app

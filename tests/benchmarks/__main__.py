@@ -8,6 +8,7 @@ import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+from bench_clients import measure_clients
 from bench_learner import measure_learner
 from bench_reaching import measure_locomotion, measure_manipulation
 from bench_rows import Measured
@@ -21,6 +22,7 @@ GROUPS: dict[str, Callable[[], Iterator[Measured]]] = {
     "learner": measure_learner,
     "service": measure_service,
     "two-at-once": measure_two_at_once,
+    "clients": measure_clients,
     "locomotion": measure_locomotion,
     "manipulation": measure_manipulation,
 }
