@@ -8,7 +8,6 @@ that say nothing get a new answer each time, and so does everybody after a chang
 from __future__ import annotations
 
 import asyncio
-import re
 import time
 from collections import OrderedDict
 from dataclasses import dataclass
@@ -19,9 +18,8 @@ from starlette.datastructures import Headers, MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from backend.api.access.declarations import declaration_of
+from backend.api.freshness import accepted_age
 
-OLDEST_S = 5.0
-"""No answer is given that is older, whatever age is asked for [s]."""
 MOST_ANSWERS = 256
 """Answers that are kept; beyond, the one that was asked for longest ago is forgotten."""
 LARGEST_BODY = 2**20
@@ -30,7 +28,6 @@ LARGEST_BODY = 2**20
 GZIP_TIME = slice(4, 8)
 """Where gzip notes the time (RFC 1952 section 2.3.1): two answers that differ only there are the same."""
 
-MAX_AGE = re.compile(r"(?:^|[\s,])max-age=(\d{1,6})(?:$|[\s,;])")
 NOT_IN_304 = ("content-length", "content-encoding", "content-type")
 
 Key = tuple[str, bytes, str]
@@ -67,7 +64,7 @@ class SharedAnswers:
             return
         headers = Headers(scope=scope)
         key = (scope["path"], scope["query_string"], headers.get("accept-encoding", ""))
-        accepted_s = accepted_age(headers.get("cache-control", ""))
+        accepted_s = accepted_age(headers)
         known = self._find(key, scope, accepted_s)
         # Only what is known to be shared is waited for.
         while known is None and accepted_s and key in self._answers and (turn := self._being_made.get(key)):
@@ -130,12 +127,6 @@ class _Collector:
             await self._send(self.start)
             message, self.start = {**message, "body": self.body}, None
         await self._send(message)
-
-
-def accepted_age(cache_control: str) -> float:
-    """Return how old an answer may be by a request's `Cache-Control` [s]; 0: it has to be new."""
-    found = MAX_AGE.search(cache_control.lower())
-    return min(float(found[1]), OLDEST_S) if found else 0.0
 
 
 def _writes(scope: Scope) -> int:

@@ -11,10 +11,12 @@ from typing import Any
 import pytest
 from fastapi.routing import APIRoute
 from live_api import Service
+from starlette.datastructures import Headers
 
 from backend.api.access.declarations import declaration_of, needs
 from backend.api.app import ROUTES
-from backend.api.shared_answers import OLDEST_S, SharedAnswers, accepted_age
+from backend.api.freshness import OLDEST_S, accepted_age
+from backend.api.shared_answers import SharedAnswers
 from backend.store.database import Database, open_database
 from backend.store.launches import LaunchOrder, launch
 
@@ -120,7 +122,7 @@ def test_only_reading_what_every_role_may_read_is_shared() -> None:
     ],
 )
 def test_how_old_an_answer_may_be(asked: str, seconds: float) -> None:
-    assert accepted_age(asked) == seconds
+    assert accepted_age(Headers({"cache-control": asked})) == seconds
 
 
 def test_a_crowd_that_asks_at_once_makes_one_answer() -> None:

@@ -37,7 +37,7 @@ def get_run_metrics(
     superseded: Annotated[bool, Query(description="Whether to add the points that a later attempt replaced.")] = False,
 ) -> MetricBatch:
     """Return the points of a run after a cursor, oldest first; ask again until there are none."""
-    runs.get_run(store, run_id)
+    runs.check_run(store, run_id)
     return MetricBatch(**asdict(metrics.read_metrics(store, run_id, after, superseded=superseded)))
 
 
