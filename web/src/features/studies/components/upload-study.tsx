@@ -12,7 +12,9 @@ export function UploadStudy() {
   const toast = useToast();
   const navigate = useNavigate();
   const uploading = useUploadStudy(({ study_id, runs, already_there }) => {
-    toast({ text: already_there ? 'This study was here already.' : `A study with ${formatPlural(runs, 'run')} is here.` });
+    toast({
+      text: already_there ? 'This study was here already.' : `A study with ${formatPlural(runs, 'run')} is here.`,
+    });
     void navigate({ to: '/studies/$studyId', params: { studyId: study_id } });
   });
   const take = (file: File | null): void => {
