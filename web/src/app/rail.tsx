@@ -1,5 +1,4 @@
 /** The way to every page. */
-
 import { Tooltip } from '@mantine/core';
 import { Link } from '@tanstack/react-router';
 import { SchemeSwitch } from '@/app/scheme-switch';

@@ -1,5 +1,4 @@
 /** The button that opens the study that comes with the product, with real results; none if none comes with it. */
-
 import { Button } from '@mantine/core';
 import { queryOptions, useMutation, useQuery, useQueryClient } from '@tanstack/react-query';
 import { useNavigate } from '@tanstack/react-router';

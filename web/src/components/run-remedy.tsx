@@ -1,5 +1,4 @@
 /** The button for what a person would do first about a run that waits for one. */
-
 import { Button } from '@mantine/core';
 import { useRunActing } from '@/components/run-acting';
 import { useMay } from '@/lib/access';

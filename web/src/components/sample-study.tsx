@@ -1,5 +1,4 @@
 /** The button for whoever has nothing yet: a whole study that is over in about two minutes. */
-
 import { Button } from '@mantine/core';
 import { useQuery } from '@tanstack/react-query';
 import { useNavigate } from '@tanstack/react-router';

@@ -1,5 +1,4 @@
 /** Everything that can be done from the palette: pages, launches, runs, studies, the look. */
-
 import { useMantineColorScheme } from '@mantine/core';
 import { useDebouncedValue } from '@mantine/hooks';
 import { keepPreviousData, useQuery } from '@tanstack/react-query';

@@ -1,5 +1,4 @@
 /** What trains, what waits, in which order and for what. */
-
 import { Button } from '@mantine/core';
 import { useQuery } from '@tanstack/react-query';
 import { useState } from 'react';

@@ -1,5 +1,4 @@
 /** All runs, live: a table that is filtered, sorted, grouped and labelled on the server. */
-
 import { useMediaQuery } from '@mantine/hooks';
 import { getRouteApi } from '@tanstack/react-router';
 import { Suspense, useCallback, useState } from 'react';

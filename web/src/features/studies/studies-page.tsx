@@ -1,5 +1,4 @@
 /** All studies, live. */
-
 import { useQuery } from '@tanstack/react-query';
 import { getRouteApi } from '@tanstack/react-router';
 import { AnchorLink, ButtonLink } from '@/components/anchor-link';

@@ -1,5 +1,4 @@
 /** What this launch would queue and reuse, and the button that does it. */
-
 import { Button } from '@mantine/core';
 import type { LaunchPlan, PlannedRun } from '@/client/schema.gen';
 import { AnchorLink } from '@/components/anchor-link';

@@ -1,5 +1,4 @@
 /** What this study would queue, reuse and cost; its name; and the button that launches it. */
-
 import { Button, TextInput } from '@mantine/core';
 import { PreviewSums } from '@/components/preview-sums';
 import { WaysIn } from '@/components/ways-in';

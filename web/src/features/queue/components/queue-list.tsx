@@ -1,5 +1,4 @@
 /** The queue as a list whose waiting runs can be put in another order: by mouse, by button, or with Alt and the arrows. */
-
 import { useLayoutEffect, useRef, useState } from 'react';
 import type { QueueEntry } from '@/client/schema.gen';
 import { useToast } from '@/components/toasts';

@@ -1,5 +1,4 @@
 /** One run of the queue: its place, what it waits for, when it starts and ends, and the ways to move it. */
-
 import { ActionIcon } from '@mantine/core';
 import { type DragEvent, type KeyboardEvent, useRef, useState } from 'react';
 import type { QueueEntry } from '@/client/schema.gen';

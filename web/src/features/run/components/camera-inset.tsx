@@ -1,5 +1,4 @@
 /** What MuJoCo's own camera sees of a recorded episode, at the step that the scene beside it shows. */
-
 import { Button, Loader } from '@mantine/core';
 import { useQuery } from '@tanstack/react-query';
 import { useEffect, useRef } from 'react';

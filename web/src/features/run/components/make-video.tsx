@@ -1,5 +1,4 @@
 /** Order a video of an episode: choose a size, and go. */
-
 import { Button, NativeSelect } from '@mantine/core';
 import { useState } from 'react';
 import { useToast } from '@/components/toasts';

@@ -1,5 +1,4 @@
 /** Which run this is, how it stands, and what can be done with it. */
-
 import { Button } from '@mantine/core';
 import { useQuery } from '@tanstack/react-query';
 import type { RunDetail } from '@/client/schema.gen';

@@ -1,5 +1,4 @@
 /** What people wrote on a run: its tags and its notes, and the fields to change them. */
-
 import { Button, Group, Textarea } from '@mantine/core';
 import { type ReactNode, useState } from 'react';
 import type { RunDetail } from '@/client/schema.gen';

@@ -1,5 +1,4 @@
 /** What stands in place of the curves while a run waits for its locomotion model. */
-
 import { Button } from '@mantine/core';
 import { useQuery } from '@tanstack/react-query';
 import type { RunDetail } from '@/client/schema.gen';

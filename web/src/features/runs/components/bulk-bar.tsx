@@ -1,5 +1,4 @@
 /** What can be done with the selected runs. */
-
 import { Button, Popover } from '@mantine/core';
 import { useDisclosure } from '@mantine/hooks';
 import type { RunSummary } from '@/client/schema.gen';

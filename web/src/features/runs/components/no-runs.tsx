@@ -1,5 +1,4 @@
 /** What stands in place of the table when no run passes the filters. */
-
 import { ButtonLink } from '@/components/anchor-link';
 import { FirstSteps } from '@/components/first-steps';
 import { OnlyFor } from '@/components/only-for';

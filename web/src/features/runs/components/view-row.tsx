@@ -1,5 +1,4 @@
 /** One saved view: a link to it, and fields to rename or forget it. */
-
 import { ActionIcon, Button, TextInput } from '@mantine/core';
 import { type FormEvent, useState } from 'react';
 import type { SavedView } from '@/client/schema.gen';

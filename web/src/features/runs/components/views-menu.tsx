@@ -1,5 +1,4 @@
 /** Saved views: open, keep, rename and forget what the table shows. */
-
 import { Button, FocusTrap, Popover, TextInput } from '@mantine/core';
 import { useQuery } from '@tanstack/react-query';
 import { useRouterState } from '@tanstack/react-router';

@@ -1,5 +1,4 @@
 /** One study of the list: what it compares and how far it is. */
-
 import { Button } from '@mantine/core';
 import type { StudySummary } from '@/client/schema.gen';
 import { AnchorLink } from '@/components/anchor-link';

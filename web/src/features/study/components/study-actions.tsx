@@ -1,5 +1,4 @@
 /** What can be done with a study: compare, fill, retry, add to it, copy, delete and bring back. */
-
 import { Button } from '@mantine/core';
 import { useDisclosure } from '@mantine/hooks';
 import type { StudyDetail } from '@/client/schema.gen';

@@ -1,5 +1,4 @@
 /** One worker: where it is, what it has, what it trains, and whether it is still there. */
-
 import { Button } from '@mantine/core';
 import type { ReactNode } from 'react';
 import type { RunState, Worker } from '@/client/schema.gen';
