@@ -44,7 +44,9 @@ test('a viewer sees a study and may compare it, nothing else', async () => {
   be('viewer');
   openPage('/studies/study-1');
   await screen.findByText(NOTE);
-  expect(await screen.findByRole('link', { name: 'Compare' })).toBeTruthy();
+  const page = within(screen.getByRole('main'));
+  expect(await page.findByRole('link', { name: 'Compare' })).toBeTruthy();
+  expect(page.getByRole('link', { name: 'Export' })).toBeTruthy();
   for (const name of ['Delete', 'Edit', 'Add seeds …', /^Fill/, /^Retry/]) expect(button(name)).toBeNull();
 });
 

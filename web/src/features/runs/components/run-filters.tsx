@@ -1,7 +1,7 @@
 /** Narrow the table: a field for any word, and a panel for everything else. */
 import { Button, FocusTrap, Popover, TextInput } from '@mantine/core';
 import { useDebouncedCallback } from '@mantine/hooks';
-import { Suspense, useEffect, useState } from 'react';
+import { Suspense, useEffect, useRef, useState } from 'react';
 import { Icon } from '@/components/icon';
 import type { RunsFilter } from '../search';
 import { FilterFields } from './lazy-parts';
@@ -17,13 +17,15 @@ interface Props {
 
 export function SearchField({ search: { search: text = '' }, onChange }: Props) {
   const [typed, setTyped] = useState(text);
-  // What was typed last is on its way into the address; anything else there came from outside.
-  const [sent, setSent] = useState(text);
+  // What was typed is on its way into the address; anything else that comes to stand there came from outside.
+  const sent = useRef<readonly string[]>([]);
   useEffect(() => {
-    if (text !== sent) setTyped(text);
-  }, [text, sent]);
+    const isOwn = sent.current.includes(text);
+    if (!isOwn || text === sent.current.at(-1)) sent.current = [];
+    if (!isOwn) setTyped(text);
+  }, [text]);
   const apply = useDebouncedCallback((next: string) => {
-    setSent(next);
+    sent.current = [...sent.current, next];
     onChange({ search: next || undefined });
   }, TYPING_REST_MS);
   return (
