@@ -156,6 +156,8 @@ def _rate(trained: list[TrainedRun], pass_time: Callable[[], object]) -> float:
         run.advance()
     pass_time()
     gained = [run.advance() for run in trained]
+    if not all(seconds for _, seconds in gained):
+        raise SystemExit("A training told of no cycle in a window; take longer windows.")
     return sum(updates / seconds for updates, seconds in gained)
 
 
