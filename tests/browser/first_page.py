@@ -16,6 +16,7 @@ from contextlib import ExitStack, closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+from urllib.parse import urlsplit
 
 from playwright.sync_api import Browser, CDPSession, sync_playwright
 
@@ -38,6 +39,8 @@ QUIET_MS = 1_500
 
 SOONEST_S = 2.0
 """The page can be used by then [s]."""
+HEAVIEST = 8
+"""Addresses that are told."""
 LIGHTEST_KB = 300.0
 """It weighs no more before that [kB]."""
 
@@ -78,22 +81,31 @@ class Visit:
     """From pressing a button to its answer [ms]."""
     thread_ms: float
     """What the page's own thread took of a core; it stands still while other programs have the core [ms]."""
-    wire_kb: float
-    requests: int
+    kb_by_address: dict[str, float]
+    """What came, with headers, by address."""
+
+    @property
+    def wire_kb(self) -> float:
+        """All that came."""
+        return sum(self.kb_by_address.values())
 
 
 class Wire:
     """Count what comes to a page."""
 
     def __init__(self, session: CDPSession) -> None:
-        self.bytes = 0
-        self.requests = 0
+        self.kb_by_address: dict[str, float] = {}
+        self._addresses: dict[str, str] = {}
+        session.on("Network.requestWillBeSent", self._sent)
         session.on("Network.loadingFinished", self._finished)
         session.send("Network.enable")
 
+    def _sent(self, event: dict[str, Any]) -> None:
+        self._addresses[event["requestId"]] = urlsplit(event["request"]["url"]).path
+
     def _finished(self, event: dict[str, Any]) -> None:
-        self.bytes += int(event["encodedDataLength"])
-        self.requests += 1
+        address = self._addresses.get(event["requestId"], "?")
+        self.kb_by_address[address] = self.kb_by_address.get(address, 0.0) + event["encodedDataLength"] / 1000
 
 
 def main() -> int:
@@ -113,7 +125,10 @@ def main() -> int:
     print(f"usable after {median:.2f} s ({usable[0]:.2f} to {usable[-1]:.2f}; at most {SOONEST_S:g} s)")
     print(f"a button answers after {statistics.median(visit.answer_ms for visit in visits):.0f} ms")
     print(f"the page's thread takes {statistics.median(visit.thread_ms for visit in visits):.0f} ms of a core")
-    print(f"{weight:.0f} kB on the wire in {visits[0].requests} requests (at most {LIGHTEST_KB:g} kB)")
+    came = sorted(visits[-1].kb_by_address.items(), key=lambda item: -item[1])
+    print(f"{weight:.0f} kB on the wire from {len(came)} addresses (at most {LIGHTEST_KB:g} kB); the heaviest:")
+    for address, kb in came[:HEAVIEST]:
+        print(f"{kb:8.1f} kB  {address}")
     return 0 if median <= SOONEST_S and weight <= LIGHTEST_KB else 1
 
 
@@ -137,10 +152,10 @@ def _visit(browser: Browser, address: str) -> Visit:
     page.wait_for_function(IS_QUIET, timeout=SOON_MS)
     usable_ms = page.evaluate("Math.max(window.seen.drawn, window.seen.busy)")
     thread_ms = _thread_ms(session)
-    came = (wire.bytes / 1000, wire.requests)
+    came = dict(wire.kb_by_address)
     answer_ms = page.evaluate(PRESS)
     context.close()
-    return Visit(usable_ms / 1000, answer_ms, thread_ms, *came)
+    return Visit(usable_ms / 1000, answer_ms, thread_ms, came)
 
 
 def _thread_ms(session: CDPSession) -> float:

@@ -44,7 +44,7 @@ def get_run_thumbnail(run_id: str, store: Store, storage: Storage, settings: Ser
     except (NotFound, ApiError):
         if not (settings.pictures_directory / f"{run.task}.png").is_file():
             raise ApiError(404, f"There is no picture of run {run_id} yet; the viewer draws one.") from None
-        return RedirectResponse(f"/api/tasks/{run.task}/picture")
+        return RedirectResponse(f"/api/tasks/{run.task}/thumbnail")
 
 
 @router.post("/videos", status_code=202, responses=problem_responses(400, 403, 404, 409, 422))
