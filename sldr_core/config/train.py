@@ -57,6 +57,8 @@ class AgentConfig:
 
     hidden_sizes: Annotated[tuple[Positive, ...], Field(min_length=1)] = (256, 256, 256)
     """Units of the hidden layers of every network."""
+    layer_norm: bool = False
+    """Normalise the hidden layers of the critics, which then say less of actions that were never tried."""
     learning_rate: Rate = 1e-3
     """Step size of Adam for every network."""
     gamma: Rate = 0.98
@@ -91,6 +93,8 @@ class ReplayConfig:
     """Share of sampled transitions whose goal is replaced by one achieved later in the episode."""
     still_weight: Annotated[float, Field(gt=0.0, le=1.0)] = 1.0
     """How often an episode in which nothing moved is drawn, against one in which something did (1: alike)."""
+    met_weight: Annotated[float, Field(gt=0.0, le=1.0)] = 1.0
+    """How often a relabelled transition that begins at its goal is drawn, against one that does not (1: alike)."""
 
 
 @dataclass(frozen=True, config=_FROZEN)

@@ -66,6 +66,7 @@ PRESETS: dict[str, Preset] = {
                     "epochs": 20,
                     "cycles_per_epoch": 15,
                     "collecting": "beside",
+                    "warmup_cycles": 45,
                     "updates_per_cycle": 80,
                     "updates_per_sync": 1,
                     "batch_size": 512,
@@ -74,7 +75,7 @@ PRESETS: dict[str, Preset] = {
                     "stop_after_tests": 2,
                 },
                 "agent": QUICK_AGENT,
-                "replay": {"still_weight": 0.1},
+                "replay": {"still_weight": 0.1, "met_weight": 0.05},
             },
             locomotion={
                 "loop": {

@@ -19,6 +19,9 @@ from sldr_core.replay.buffer import ReplayBuffer
 Reward = Callable[[Floats, Floats], Floats]
 """Return the environment's reward `[B]` of achieved and desired goals `[B, G]`."""
 
+Success = Callable[[Floats, Floats], NDArray[np.bool_]]
+"""Tell whether achieved goals `[B, G]` meet desired ones `[B, G]`, `[B]`."""
+
 Gaps = Callable[[Floats, Floats], NDArray[np.float64]]
 """Return distances `[..., M, N]` of goals `[..., M, G]` from others `[..., N, G]`."""
 
@@ -67,4 +70,5 @@ class SamplerOrder:
     buffer: ReplayBuffer
     reward: Reward
     gaps: Gaps
+    success: Success
     rng: np.random.Generator

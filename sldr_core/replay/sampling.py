@@ -10,9 +10,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from sldr_core.config import ReplayConfig
 from sldr_core.records import Floats
 from sldr_core.replay.buffer import ReplayBuffer
-from sldr_core.replay.sampler import Reward, Sample, SamplerOrder
+from sldr_core.replay.sampler import Reward, Sample, SamplerOrder, Success
+
+CANDIDATES = 4
+"""Relabelled transitions looked at for each that is drawn, where those that begin at their goal count less."""
 
 
 @dataclass(frozen=True)
@@ -29,6 +33,15 @@ class Draw:
     def choose(self, chosen: NDArray[np.int64]) -> Draw:
         """Return these of its transitions alone."""
         return Draw(self.episode[chosen], self.step[chosen], self.goal_step[chosen])
+
+    def relabelled_as(self, other: Draw) -> Draw:
+        """Return these transitions, but those of `other` in the places whose goal is relabelled."""
+        relabelled = self.goal_step > 0
+        return Draw(
+            np.where(relabelled, other.episode, self.episode),
+            np.where(relabelled, other.step, self.step),
+            np.where(relabelled, other.goal_step, self.goal_step),
+        )
 
 
 def draw_steps(
@@ -47,64 +60,74 @@ def draw_steps(
 
 
 @dataclass(frozen=True)
-class EpisodeGroups:
-    """Ranks of the episodes that can be drawn, by whether anything moved in them."""
+class Split:
+    """Indices of what can be drawn, in two: what is drawn fully, and what is drawn with less weight."""
 
-    written: int
-    """Episodes stored when this was found."""
-    moved: NDArray[np.int64]
-    still: NDArray[np.int64]
+    full: NDArray[np.int64]
+    light: NDArray[np.int64]
 
 
-def group_episodes(buffer: ReplayBuffer) -> EpisodeGroups:
-    """Find in which episodes something moved."""
-    moved = buffer.arrays["moved"][buffer.slot_of(np.arange(len(buffer)))] > 0.0
-    return EpisodeGroups(buffer.written, np.flatnonzero(moved), np.flatnonzero(~moved))
+def split(is_full: NDArray[np.bool_]) -> Split:
+    """Return the indices of `[M]` in two."""
+    return Split(np.flatnonzero(is_full), np.flatnonzero(~is_full))
 
 
-def draw_ranks(
-    rng: np.random.Generator, batch_size: int, groups: EpisodeGroups, still_weight: float
-) -> NDArray[np.int64]:
-    """Draw episodes with probability 1 if something moved in them, `still_weight` if not, up to a factor."""
-    moved, still = len(groups.moved), len(groups.still)
-    share = moved / (moved + still_weight * still)
-    from_moved = rng.random(batch_size) < share
+def draw_split(rng: np.random.Generator, batch_size: int, parts: Split, light_weight: float) -> NDArray[np.int64]:
+    """Draw indices `[B]` with replacement, with probability 1 or `light_weight`, up to a factor."""
+    full, light = len(parts.full), len(parts.light)
+    share = full / (full + light_weight * light)
+    from_full = rng.random(batch_size) < share
     position = rng.random(batch_size)
-    ranks = np.empty(batch_size, dtype=np.int64)
-    ranks[from_moved] = groups.moved[(position[from_moved] * moved).astype(np.int64)]
-    ranks[~from_moved] = groups.still[(position[~from_moved] * still).astype(np.int64)]
-    return ranks
+    drawn = np.empty(batch_size, dtype=np.int64)
+    drawn[from_full] = parts.full[(position[from_full] * full).astype(np.int64)]
+    drawn[~from_full] = parts.light[(position[~from_full] * light).astype(np.int64)]
+    return drawn
 
 
 class HindsightSampler:
     """Draw batches from a replay buffer, replacing goals in hindsight."""
 
     def __init__(
-        self,
-        buffer: ReplayBuffer,
-        reward: Reward,
-        relabel_probability: float,
-        still_weight: float,
-        rng: np.random.Generator,
+        self, buffer: ReplayBuffer, reward: Reward, success: Success, config: ReplayConfig, rng: np.random.Generator
     ) -> None:
         self.rng = rng
         self._buffer = buffer
         self._reward = reward
-        self._relabel_probability = relabel_probability
-        self._still_weight = still_weight
-        self._groups = EpisodeGroups(0, np.empty(0, np.int64), np.empty(0, np.int64))
+        self._success = success
+        self._config = config
+        self._split_when = 0
+        self._by_movement = split(np.empty(0, np.bool_))
         self._length = buffer.arrays["action"].shape[1]
 
     def draw(self, batch_size: int) -> Draw:
         """Draw a batch's indices, with replacement."""
-        if self._still_weight < 1.0:
-            if self._groups.written != self._buffer.written:
-                self._groups = group_episodes(self._buffer)
-            rank = draw_ranks(self.rng, batch_size, self._groups, self._still_weight)
-        else:
+        draw = self._draw(batch_size, self._config.relabel_probability)
+        return draw if self._config.met_weight == 1.0 else draw.relabelled_as(self._draw_open(batch_size))
+
+    def _draw(self, batch_size: int, relabel_probability: float) -> Draw:
+        if self._config.still_weight == 1.0:
             rank = self.rng.integers(len(self._buffer), size=batch_size)
-        step, goal_step = draw_steps(self.rng, batch_size, self._length, self._relabel_probability)
+        else:
+            rank = draw_split(self.rng, batch_size, self._episodes(), self._config.still_weight)
+        step, goal_step = draw_steps(self.rng, batch_size, self._length, relabel_probability)
         return Draw(self._buffer.slot_of(rank), step, goal_step)
+
+    def _episodes(self) -> Split:
+        """Return the ranks of the episodes, those in which something moved first; found once after each storing."""
+        if self._split_when != self._buffer.written:
+            moved = self._buffer.arrays["moved"][self._buffer.slot_of(np.arange(len(self._buffer)))]
+            self._split_when, self._by_movement = self._buffer.written, split(moved > 0.0)
+        return self._by_movement
+
+    def _draw_open(self, batch_size: int) -> Draw:
+        """Draw relabelled transitions, less often those that begin at their goal: they have nothing left to do.
+
+        Where little moves, they are nearly all, as what lies still is at every goal that it will achieve.
+        """
+        candidates = self._draw(CANDIDATES * batch_size, 1.0)
+        achieved = self._buffer.arrays["achieved"][candidates.episode, candidates.step]
+        met = self._success(achieved, drawn_goals(self._buffer, candidates))
+        return candidates.choose(draw_split(self.rng, batch_size, split(~met), self._config.met_weight))
 
     def read(self, draw: Draw) -> Sample:
         """Read what was drawn."""
@@ -117,8 +140,7 @@ class HindsightSampler:
 
 def build_hindsight(order: SamplerOrder) -> HindsightSampler:
     """Build the sampler that a config asks for."""
-    replay = order.config.replay
-    return HindsightSampler(order.buffer, order.reward, replay.relabel_probability, replay.still_weight, order.rng)
+    return HindsightSampler(order.buffer, order.reward, order.success, order.config.replay, order.rng)
 
 
 def drawn_goals(buffer: ReplayBuffer, draw: Draw) -> Floats:

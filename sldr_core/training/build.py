@@ -108,7 +108,9 @@ def build_training(
         envs=envs,
         test_envs=test_envs,
         buffer=buffer,
-        sampler=SAMPLERS[config.method_spec.sampler](SamplerOrder(config, buffer, envs.reward, envs.gaps, rng)),
+        sampler=SAMPLERS[config.method_spec.sampler](
+            SamplerOrder(config, buffer, envs.reward, envs.gaps, envs.success, rng)
+        ),
         exploration=Exploration(config.exploration, np.random.default_rng(exploration_seed)),
         agent=agent,
         inverse=inverse if locomotion else None,

@@ -20,7 +20,7 @@ class Compute:
     threads: int
     """Threads of this training."""
     collecting_threads: int
-    """Those of them that step the simulations in which episodes are collected."""
+    """Those of them that step the simulations in which episodes are collected; the learner may use them too."""
 
 
 def resolve_compute(config: ComputeConfig, beside: bool = False) -> Compute:
@@ -44,7 +44,8 @@ def resolve_compute(config: ComputeConfig, beside: bool = False) -> Compute:
         device=device,
         autocast=config.precision == "bfloat16",
         threads=threads,
-        collecting_threads=max(1, threads - learning) if beside else threads,
+        # A learner of one thread waits for no other, so that simulations may have its core too, as in the warm-up.
+        collecting_threads=threads - learning if beside and learning > 1 else threads,
     )
 
 

@@ -185,7 +185,9 @@ class _Loop:
         return held or self._counters.cycle >= self._parts.config.total_cycles
 
     def _progress(self) -> dict[str, float]:
-        done = 1.0 if self._is_finished() else self._counters.cycle / self._parts.config.total_cycles
+        warmup = self._loop.warmup_cycles
+        share = (warmup + self._counters.cycle) / (warmup + self._parts.config.total_cycles)
+        done = 1.0 if self._is_finished() else share
         return {
             "progress/fraction": done,
             "progress/seconds_left": self._counters.wall_seconds * (1.0 - done) / done,

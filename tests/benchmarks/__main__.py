@@ -6,11 +6,16 @@ import argparse
 import json
 import sys
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 
 from bench_clients import measure_clients
+from bench_epoch import measure_epoch
 from bench_learner import measure_learner
-from bench_reaching import measure_locomotion, measure_manipulation
+from bench_metrics import measure_metrics
+from bench_quality import measure_quality
+from bench_queries import measure_queries
+from bench_reaching import PEER_CAP_S, measure_locomotion, measure_manipulation
 from bench_rows import Measured
 from bench_service import measure_service, measure_two_at_once
 from bench_simulation import measure_collecting, measure_locomotion_scenes
@@ -20,14 +25,18 @@ GROUPS: dict[str, Callable[[], Iterator[Measured]]] = {
     "collecting": measure_collecting,
     "locomotion-scenes": measure_locomotion_scenes,
     "learner": measure_learner,
+    "epoch": measure_epoch,
+    "metrics": measure_metrics,
+    "queries": measure_queries,
     "service": measure_service,
     "two-at-once": measure_two_at_once,
     "clients": measure_clients,
     "locomotion": measure_locomotion,
     "manipulation": measure_manipulation,
+    "quality": measure_quality,
 }
-LONG = ("manipulation",)
-"""Groups of hours, measured only when they are named."""
+LONG = ("manipulation", "quality")
+"""Groups of hours, and of runs that took hours: measured only when they are named."""
 
 
 def main() -> int:
@@ -35,9 +44,13 @@ def main() -> int:
     options = _parse()
     named = options.only or [name for name in GROUPS if name not in LONG]
     results: dict[str, list[Measured]] = {}
+    groups = GROUPS | {
+        "manipulation": partial(measure_manipulation, 3600.0 * options.peer_hours, options.keep_peer),
+        "quality": partial(measure_quality, options.home),
+    }
     for name in named:
         results[name] = []
-        for measured in GROUPS[name]():
+        for measured in groups[name]():
             results[name].append(measured)
             print(_as_line(measured), flush=True)
     _keep_json(options.json, results)
@@ -53,6 +66,10 @@ def _parse() -> argparse.Namespace:
     parser.add_argument("--only", choices=list(GROUPS), action="append", help="measure this group; may be given again")
     parser.add_argument("--write", type=Path, metavar="PAGE", help="put the table into this page")
     parser.add_argument("--json", type=Path, default=Path("build/bench.json"), help="where the numbers go")
+    hours = PEER_CAP_S / 3600.0
+    parser.add_argument("--peer-hours", type=float, default=hours, help="how long the peer of manipulation may train")
+    parser.add_argument("--keep-peer", action="store_true", help="take that peer's result from an earlier time here")
+    parser.add_argument("--home", type=Path, help="data directory whose finished runs `quality` reads")
     return parser.parse_args()
 
 

@@ -18,7 +18,7 @@ from sldr_core.nets.transitions import Transitions
 from sldr_core.presets import make_config
 from sldr_core.replay import Sampler
 from sldr_core.training.build import Parts, build_training
-from sldr_core.training.cycle import collect, collect_random, learn
+from sldr_core.training.cycle import collect_random, learn
 
 BATCH = 4864
 UPDATES = 10
@@ -37,7 +37,6 @@ def measure_learner() -> Iterator[Measured]:
         yield _against_her(root)
         for task in ("FetchPush", "HandBlockFull"):
             yield _share_of_sampling(root, task)
-        yield _share_of_the_rest(root)
 
 
 def _against_stable_baselines(root: Path) -> Iterator[Measured]:
@@ -108,33 +107,6 @@ def _share_of_sampling(root: Path, task: str) -> Measured:
         shares,
         Target("at most", 5.0),
         f"replay of {parts.buffer.written:,} episodes",
-    )
-
-
-def _share_of_the_rest(root: Path) -> Measured:
-    """Measure which share of a cycle of the paper's sizes is neither physics nor the update of nets."""
-    parts = _parts(root, "FetchPush", "her", "float32")
-    watch = Stopwatch()
-    parts.envs.simulation.step = watch.around(parts.envs.simulation.step)
-    parts.agent.update = watch.around(parts.agent.update)
-    paper = replace(parts, config=make_config("FetchPush", "manipulation", "her", 0, "paper"))
-
-    def cycle() -> None:
-        collect(paper, _carry_on)
-        learn(paper, 0, _carry_on)
-
-    cycle()
-    shares: list[float] = []
-    for _ in range(REPETITIONS):
-        watch.total_s = 0.0
-        whole_s = seconds_of(cycle)
-        shares.append(100.0 * (1.0 - watch.total_s / whole_s))
-    return row(
-        "a cycle of the `paper` preset outside physics and learner",
-        "%",
-        shares,
-        Target("at most", 5.0),
-        "FetchPush, her: acting, observing, storing, sampling, checks",
     )
 
 

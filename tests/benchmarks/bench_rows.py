@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import statistics
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
@@ -41,6 +41,8 @@ class Measured:
     target: Target
     detail: str
     """The figures behind it, in words."""
+    curve: Mapping[str, Sequence[float]] | None = None
+    """How a peer came there, by what each column holds; only in the file of numbers."""
 
     @property
     def is_met(self) -> bool:
@@ -52,9 +54,16 @@ class Measured:
         return {**asdict(self), "met": self.is_met}
 
 
-def row(what: str, unit: str, values: Sequence[float], target: Target, detail: str) -> Measured:
+def row(
+    what: str,
+    unit: str,
+    values: Sequence[float],
+    target: Target,
+    detail: str,
+    curve: Mapping[str, Sequence[float]] | None = None,
+) -> Measured:
     """Return a row of the values of its repetitions."""
-    return Measured(what, unit, statistics.median(values), min(values), max(values), target, detail)
+    return Measured(what, unit, statistics.median(values), min(values), max(values), target, detail, curve)
 
 
 @dataclass(frozen=True)
@@ -91,6 +100,11 @@ def seconds_of(action: Callable[[], object]) -> float:
     begun = time.perf_counter()
     action()
     return time.perf_counter() - begun
+
+
+def seconds_until(rate: float, seconds: Sequence[float], rates: Sequence[float]) -> float:
+    """Return when tests first reached a rate, of when each ended [s] and what it gave; infinity if none did."""
+    return next((when for when, reached in zip(seconds, rates, strict=True) if reached >= rate), float("inf"))
 
 
 @dataclass

@@ -124,8 +124,8 @@ def test_there_must_be_something_to_learn_from_at_first() -> None:
         )
 
 
-@pytest.mark.parametrize(("threads", "collecting"), [(1, 1), (2, 1), (5, 3)])
-def test_the_two_share_the_threads(threads: int, collecting: int) -> None:
+@pytest.mark.parametrize(("threads", "learning", "collecting"), [(1, 1, 1), (2, 1, 2), (3, 1, 3), (4, 2, 2), (5, 2, 3)])
+def test_the_two_share_the_threads(threads: int, learning: int, collecting: int) -> None:
     before = torch.get_num_threads()
     try:
         compute = resolve_compute(
@@ -134,9 +134,9 @@ def test_the_two_share_the_threads(threads: int, collecting: int) -> None:
             ).compute,
             beside=True,
         )
-        learning = torch.get_num_threads()
+        used = torch.get_num_threads()
     finally:
         torch.set_num_threads(before)
 
     assert (compute.threads, compute.collecting_threads) == (threads, collecting)
-    assert learning == max(1, threads - collecting)
+    assert used == learning

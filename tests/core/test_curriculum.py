@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from small_training import collected_parts, tiny_config
 
-from sldr_core.config import CurriculumConfig
+from sldr_core.config import CurriculumConfig, ReplayConfig
 from sldr_core.records import Episodes, Floats
 from sldr_core.replay import CurriculumSampler, HindsightSampler, ReplayBuffer
 from sldr_core.replay.curriculum import distinct_positions, greedy_picks, neighbour_gains
@@ -27,6 +27,10 @@ SIGMAS = 5.0
 
 def no_reward(achieved: Floats, goal: Floats) -> Floats:
     return np.zeros(len(goal), np.float32)
+
+
+def never_met(achieved: Floats, goal: Floats) -> np.ndarray:
+    return np.zeros(len(goal), np.bool_)
 
 
 def euclidean(goals: Floats, others: Floats) -> np.ndarray:
@@ -76,7 +80,7 @@ def buffer(tmp_path: Path) -> ReplayBuffer:
 
 
 def hindsight_of(buffer: ReplayBuffer, seed: int) -> HindsightSampler:
-    return HindsightSampler(buffer, no_reward, 0.8, 1.0, np.random.default_rng(seed))
+    return HindsightSampler(buffer, no_reward, never_met, ReplayConfig(), np.random.default_rng(seed))
 
 
 def sampler_of(buffer: ReplayBuffer, seed: int = 0) -> CurriculumSampler:

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from sldr_core.config import ReplayConfig
 from sldr_core.records import Episodes, Floats
 from sldr_core.replay import HindsightSampler, ReplayBuffer, Sample
 from sldr_core.replay.sampling import draw_steps
@@ -26,6 +27,10 @@ def reward_telling_its_input(achieved: Floats, goal: Floats) -> Floats:
     return achieved[:, 0] * 10_000 + goal[:, 0]
 
 
+def never_met(achieved: Floats, goal: Floats) -> np.ndarray:
+    return np.zeros(len(goal), np.bool_)
+
+
 @pytest.fixture
 def sample_of(tmp_path: Path) -> Callable[[float], Sample]:
     """Return batches of episodes in which every entry is 100 episode + step."""
@@ -42,7 +47,9 @@ def sample_of(tmp_path: Path) -> Callable[[float], Sample]:
     actions = states[:, :-1]
     buffer.store(Episodes(states, states, number + ORIGINAL, actions, {"w": actions}))
     rng = np.random.default_rng(0)
-    return lambda share: HindsightSampler(buffer, reward_telling_its_input, share, 1.0, rng).sample(BATCH, 0)
+    return lambda share: HindsightSampler(
+        buffer, reward_telling_its_input, never_met, ReplayConfig(relabel_probability=share), rng
+    ).sample(BATCH, 0)
 
 
 def chi_square(observed: np.ndarray, expected: np.ndarray) -> float:

@@ -7,7 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from sldr_core.records import Episodes
+from sldr_core.config import ReplayConfig
+from sldr_core.records import Episodes, Floats
 from sldr_core.replay import HindsightSampler, ReplayBuffer
 from sldr_core.replay.buffer import has_moved
 
@@ -34,10 +35,18 @@ def buffer(tmp_path: Path) -> ReplayBuffer:
     return buffer
 
 
+def weighted_sampler(buffer: ReplayBuffer, config: ReplayConfig) -> HindsightSampler:
+    def no_reward(achieved: Floats, goal: Floats) -> Floats:
+        return np.zeros(len(goal), np.float32)
+
+    def never_met(achieved: Floats, goal: Floats) -> np.ndarray:
+        return np.zeros(len(goal), np.bool_)
+
+    return HindsightSampler(buffer, no_reward, never_met, config, np.random.default_rng(0))
+
+
 def drawn_episodes(buffer: ReplayBuffer, still_weight: float) -> np.ndarray:
-    sampler = HindsightSampler(
-        buffer, lambda achieved, goal: np.zeros(len(goal), np.float32), 0.8, still_weight, np.random.default_rng(0)
-    )
+    sampler = weighted_sampler(buffer, ReplayConfig(still_weight=still_weight))
     return sampler.sample(BATCH, 0).action[:, 0]
 
 
@@ -62,9 +71,7 @@ def test_still_episodes_are_drawn_as_often_as_their_weight_says(buffer: ReplayBu
 
 
 def test_new_episodes_are_seen_at_the_next_draw(buffer: ReplayBuffer) -> None:
-    sampler = HindsightSampler(
-        buffer, lambda achieved, goal: np.zeros(len(goal), np.float32), 0.8, 0.1, np.random.default_rng(0)
-    )
+    sampler = weighted_sampler(buffer, ReplayConfig(still_weight=0.1))
     sampler.sample(BATCH, 0)
     achieved = np.zeros((1, LENGTH + 1, 3), dtype=np.float32)
     achieved[0, 1, 0] = 1.0

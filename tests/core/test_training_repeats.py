@@ -45,7 +45,7 @@ def test_the_smoke_preset_trains_from_end_to_end(phase: Phase, tmp_path: Path) -
     assert lines[-1]["episodes"] == (4 + loop.warmup_cycles) * loop.episodes_per_cycle
     assert lines[-1]["env_steps"] == 50 * lines[-1]["episodes"]
     assert ["test/success_rate" in line["metrics"] for line in lines] == [False, True, False, True]
-    assert [line["metrics"]["progress/fraction"] for line in lines] == [0.25, 0.5, 0.75, 1.0]
+    assert [line["metrics"]["progress/fraction"] for line in lines] == [0.4, 0.6, 0.8, 1.0]
 
 
 @pytest.mark.parametrize("phase", PHASES)

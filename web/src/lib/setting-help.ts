@@ -12,6 +12,7 @@ export const SETTING_EQUATIONS: Readonly<Record<string, EquationName>> = {
   'exploration.random_action_probability': 'explore',
   'exploration.noise_std': 'explore',
   'replay.relabel_probability': 'hindsight',
+  'replay.met_weight': 'hindsight',
   'sldr.reward': 'sldr',
   'sldr.weight': 'streams',
   'rnd.weight': 'streams',

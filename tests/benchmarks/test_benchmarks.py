@@ -1,0 +1,129 @@
+"""What benchmarks make of their numbers: medians, ratios, verdicts, lines and what is told of a peer."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import bench_reaching
+import pytest
+import sac_peer
+from bench_epoch import Epoch
+from bench_quality import compare_quality, measure_quality
+from bench_rows import Pairs, Stopwatch, Target, row, seconds_until
+from bench_service import with_imports
+from sac_peer import PeerCurve
+
+INFINITY = float("inf")
+
+
+def test_a_row_is_the_median_of_its_repetitions() -> None:
+    measured = row("speed", "x", [3.0, 1.0, 2.0, 9.0, 4.0], Target("at least", 2.5), "")
+    assert (measured.value, measured.low, measured.high, measured.is_met) == (3.0, 1.0, 9.0, True)
+    assert measured.as_json()["met"] is True
+
+
+@pytest.mark.parametrize(
+    ("target", "value", "met"),
+    [
+        (Target("at least", 5.0), 5.0, True),
+        (Target("at least", 5.0), 4.9, False),
+        (Target("at most", 5.0), 5.0, True),
+        (Target("at most", 5.0), 5.1, False),
+    ],
+)
+def test_a_target_is_met_at_its_limit(target: Target, value: float, met: bool) -> None:
+    assert target.is_met(value) is met
+
+
+def test_ratios_are_taken_pair_by_pair() -> None:
+    pairs = Pairs(ours=[1.0, 2.0], theirs=[4.0, 3.0])
+    assert (pairs.speedups, pairs.costs) == ([4.0, 1.5], [0.25, pytest.approx(2 / 3)])
+
+
+def test_a_stopwatch_adds_up_and_hands_on(monkeypatch: pytest.MonkeyPatch) -> None:
+    times = iter([1.0, 3.5, 10.0, 10.25])
+    monkeypatch.setattr("time.perf_counter", lambda: next(times))
+    watch = Stopwatch()
+    timed = watch.around(lambda value: value + 1)
+    assert (timed(1), timed(2), watch.total_s) == (2, 3, 2.75)
+
+
+def test_learning_time_is_that_of_the_first_test_that_is_good_enough() -> None:
+    assert seconds_until(0.9, [10.0, 20.0, 30.0], [0.5, 0.9, 1.0]) == 20.0
+    assert seconds_until(0.9, [10.0], [0.5]) == INFINITY
+
+
+def _curve(*success: float) -> PeerCurve:
+    count = len(success)
+    return PeerCurve(
+        "FetchPush", "here", 600.0, [5_000 * (i + 1) for i in range(count)], [60.0 * (i + 1) for i in range(count)],
+        list(success), True,
+    )  # fmt: skip
+
+
+def test_a_peer_that_has_learnt_is_compared_with_its_time() -> None:
+    reached = [bench_reaching.Reached(12.0, 1.0), bench_reaching.Reached(6.0, 1.0), bench_reaching.Reached(INFINITY, 0)]
+    measured = bench_reaching.against_peer("FetchPush", reached, _curve(0.2, 0.94))
+    assert (measured.value, measured.low, measured.high) == (10.0, 0.0, 20.0)
+    assert measured.detail == "the peer came to 94% after 2 min and 10,000 steps"
+    assert measured.as_json()["curve"] == {"steps": [5_000, 10_000], "seconds": [60.0, 120.0], "success": [0.2, 0.94]}
+
+
+def test_a_peer_that_has_not_learnt_counts_with_all_its_time() -> None:
+    measured = bench_reaching.against_peer("FetchPush", [bench_reaching.Reached(60.0, 1.0)], _curve(0.2, 0.3))
+    assert measured.value == 10.0
+    assert "stood at 30% after 2 min and 10,000 steps, so it takes longer yet" in measured.detail
+    assert _curve().told(0.9) == "the peer was not tested within 10 min"
+
+
+def test_a_kept_peer_is_trained_again_unless_it_is_asked_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    trained: list[str] = []
+
+    def train(env_id: str, rate: float, curve: PeerCurve, keep: object) -> None:
+        trained.append(env_id)
+        curve.success.append(rate)
+
+    monkeypatch.setattr(sac_peer, "KEPT", tmp_path / "build" / "peers.json")
+    monkeypatch.setattr(sac_peer, "_train", train)
+    first = sac_peer.train_peer("FetchPush", "FetchPush-v4", 0.9, 60.0, take_kept=True)
+    assert sac_peer.train_peer("FetchPush", "FetchPush-v4", 0.9, 60.0, take_kept=True) == first
+    assert trained == ["FetchPush-v4"]
+    sac_peer.train_peer("FetchPush", "FetchPush-v4", 0.9, 60.0, take_kept=False)
+    assert len(trained) == 2
+
+
+def test_an_epoch_tells_where_the_rest_of_it_goes() -> None:
+    parts = {"physics": 40.0, "learning": 50.0, "observing": 43.0, "acting": 2.0}
+    epoch = Epoch(100.0, parts)
+    assert epoch.outside == pytest.approx(10.0)
+    assert epoch.shares_outside() == pytest.approx({"observing": 3.0, "acting": 2.0, "else": 5.0})
+
+
+def test_quality_is_compared_with_the_lower_quartile(capsys: pytest.CaptureFixture[str]) -> None:
+    runs = {
+        ("paper", "float32"): [0.80, 0.90, 1.00, 0.85, 0.95],
+        ("quick", "float32"): [0.84, 0.86, 1.00],
+        ("paper", "bfloat16"): [0.5, 0.6, 0.99],
+        ("quick", "bfloat16"): [0.99],
+    }
+    compared = {measured.what: measured for measured in compare_quality({("FetchPush", "her"): runs})}
+    quick = compared["FetchPush, her, `quick` in float32: test success"]
+    assert (quick.value, quick.target.value, quick.is_met) == (pytest.approx(86.0), pytest.approx(85.0), True)
+    assert not compared["FetchPush, her, `paper` in bfloat16: test success"].is_met
+    assert len(compared) == 2
+    assert "`quick` in bfloat16 has 1 runs, `paper` in float32 has 5" in capsys.readouterr().out
+
+
+def test_the_first_page_weighs_what_it_imports_at_once(tmp_path: Path) -> None:
+    files = {name: tmp_path / name for name in ("entry.js", "frame.js", "used.js", "later.js", "style.css")}
+    files["entry.js"].write_text('import{a}from"./frame.js";import"./used.js";const b=()=>import("./later.js");')
+    files["frame.js"].write_text('import{c}from"./used.js";export*from"./entry.js";')
+    files["used.js"].write_text("")
+    expected = {files[name] for name in ("entry.js", "frame.js", "used.js", "style.css")}
+    assert with_imports([files["entry.js"], files["style.css"]]) == expected
+
+
+def test_quality_without_a_store_says_so(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert list(measure_quality(tmp_path)) == []
+    assert f"no store in {tmp_path}" in capsys.readouterr().out
+    assert not (tmp_path / "sldr.db").exists()
