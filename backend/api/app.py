@@ -53,6 +53,7 @@ from backend.api.routes import (
     viewer_sessions,
     workers,
 )
+from backend.api.shared_answers import SharedAnswers
 from backend.api.tokens import ViewerTokens, load_secret
 from backend.comparison.memory import ComparisonMemory
 from backend.store.access.audit import forget_old_entries
@@ -151,6 +152,7 @@ def _add_guards(app: FastAPI, hosts: HostRule) -> None:
         compresslevel=GZIP_LEVEL,
         exclude_content_types=(*DEFAULT_EXCLUDED_CONTENT_TYPES, "application/octet-stream"),
     )
+    app.add_middleware(SharedAnswers)
     app.add_middleware(Gate)
     app.add_middleware(SameOrigin)
     app.add_middleware(OwnHost, rule=hosts)

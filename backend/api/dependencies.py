@@ -37,46 +37,53 @@ class Service:
     """Who comes in."""
 
 
-def get_service(connection: HTTPConnection) -> Service:
+# Asynchronous, though they wait for nothing: FastAPI hands every other function to a thread, which takes longer.
+
+
+async def get_service(connection: HTTPConnection) -> Service:
     """Return the service of the application that answers."""
-    return connection.app.state.service
+    return _service(connection)
 
 
-def get_database(connection: HTTPConnection) -> Database:
+async def get_database(connection: HTTPConnection) -> Database:
     """Return the store."""
-    return get_service(connection).database
+    return _service(connection).database
 
 
-def get_storage(connection: HTTPConnection) -> FileStorage:
+async def get_storage(connection: HTTPConnection) -> FileStorage:
     """Return where stored files lie."""
-    return get_service(connection).storage
+    return _service(connection).storage
 
 
-def get_settings(connection: HTTPConnection) -> Settings:
+async def get_settings(connection: HTTPConnection) -> Settings:
     """Return the settings."""
-    return get_service(connection).settings
+    return _service(connection).settings
 
 
-def get_tokens(connection: HTTPConnection) -> ViewerTokens:
+async def get_tokens(connection: HTTPConnection) -> ViewerTokens:
     """Return the signer of viewer tokens."""
-    return get_service(connection).tokens
+    return _service(connection).tokens
 
 
-def get_memory(connection: HTTPConnection) -> ComparisonMemory:
+async def get_memory(connection: HTTPConnection) -> ComparisonMemory:
     """Return what comparisons keep."""
-    return get_service(connection).memory
+    return _service(connection).memory
 
 
-def get_registry(connection: HTTPConnection) -> CollectorRegistry:
+async def get_registry(connection: HTTPConnection) -> CollectorRegistry:
     """Return what this process counts for a monitor."""
     return connection.app.state.registry
 
 
-def get_caller(connection: HTTPConnection) -> Caller:
+async def get_caller(connection: HTTPConnection) -> Caller:
     """Return who asks, at a route that nobody else reaches."""
     caller = connection.scope["state"]["caller"]
     assert isinstance(caller, Caller)
     return caller
+
+
+def _service(connection: HTTPConnection) -> Service:
+    return connection.app.state.service
 
 
 ServiceParts = Annotated[Service, Depends(get_service)]

@@ -6,6 +6,7 @@ import fcntl
 from collections.abc import Generator
 from contextlib import contextmanager, nullcontext
 from datetime import UTC, datetime
+from itertools import count
 from pathlib import Path
 
 from sqlalchemy import URL, Connection, Engine, event, func, inspect, select, text
@@ -31,6 +32,10 @@ class Database:
         self._reader = for_reading(engine)
         self._writer = for_writing(engine)
         self._is_closed = False
+        # A counter's step is one piece even between threads, which `+= 1` is not.
+        self._writes = count()
+        self.writes = next(self._writes)
+        """How often this process has written what others read: what was read before is out of date."""
         event.listen(engine, "checkin", self._close_if_late)
 
     @property
@@ -45,14 +50,21 @@ class Database:
             yield conn
 
     @contextmanager
-    def write(self) -> Generator[Connection]:
+    def write(self, is_news: bool = True) -> Generator[Connection]:
         """Open a transaction that writes.
 
         On SQLite it waits for its turn before it reads anything. On PostgreSQL writers go on beside each other: lock
         the rows that a decision hangs on (`with_for_update`), or take turns (`take_turn`).
+
+        Args:
+            is_news: whether what others have read may be out of date afterwards.
         """
-        with _transaction(self._writer) as conn:
-            yield conn
+        try:
+            with _transaction(self._writer) as conn:
+                yield conn
+        finally:
+            if is_news:
+                self.writes = next(self._writes)
 
     def close(self) -> None:
         """Close every connection; one that another thread still uses is closed when that thread is done with it."""

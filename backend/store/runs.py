@@ -115,6 +115,17 @@ def get_run(db: Database, run_id: str) -> RunRow:
     return rows[0]
 
 
+def check_run(db: Database, run_id: str) -> None:
+    """Make sure that there is such a run, which takes less than to read all of it.
+
+    Raises:
+        NotFound: there is none.
+    """
+    with db.read() as conn:
+        if conn.execute(select(run_table.c.id).where(run_table.c.id == run_id)).one_or_none() is None:
+            raise NotFound("run", run_id)
+
+
 def get_runs(db: Database, run_ids: Sequence[str]) -> list[RunRow]:
     """Return several runs in the order asked for, leaving out those that do not exist."""
     with db.read() as conn:

@@ -136,7 +136,7 @@ def end_orphaned_sessions(
 
 def touch(db: Database, session_id: str) -> None:
     """Record that somebody looks at a session."""
-    with db.write() as conn:
+    with db.write(is_news=False) as conn:
         this = viewer_sessions.c.id == session_id
         conn.execute(update(viewer_sessions).where(this).values(touched_at=current_time(conn)))
 

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import io
+import os
+
 from live_api import Service, problem_fields
+from PIL import Image
 
 
 def test_choices_hold_tasks_methods_presets_and_the_schema_of_a_config(unused_service: Service):
@@ -28,6 +32,22 @@ def test_a_picture_is_sent_once_it_is_drawn(service: Service):
     assert missing.status_code == 404
     assert "not drawn yet" in missing.json()["problems"][0]["message"]
     assert (drawn.content, drawn.headers["content-type"]) == (b"\x89PNG", "image/png")
+
+
+def test_lists_get_a_small_form_of_a_picture(service: Service):
+    directory = service.settings.pictures_directory
+    directory.mkdir(parents=True)
+    path = directory / "FetchPush.png"
+    address = "/api/tasks/FetchPush/thumbnail"
+    assert service.client.get(address).status_code == 404
+    Image.radial_gradient("L").convert("RGB").resize((800, 500)).save(path)
+    small = service.client.get(address)
+    assert (small.headers["content-type"], len(small.content) < 6_000) == ("image/webp", True)
+    assert Image.open(io.BytesIO(small.content)).size == (168, 105)
+    Image.new("RGB", (800, 500)).save(path)
+    os.utime(path, (2_000_000_000, 2_000_000_000))
+    assert service.client.get(address).content != small.content, "the picture was drawn anew"
+    assert [file.name for file in directory.iterdir() if file.name.startswith(".")] == []
 
 
 def test_an_unknown_task_has_no_picture(unused_service: Service):

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
 
+from bench_clients import measure_clients
 from bench_epoch import measure_epoch
 from bench_learner import measure_learner
 from bench_metrics import measure_metrics
@@ -29,6 +30,7 @@ GROUPS: dict[str, Callable[[], Iterator[Measured]]] = {
     "queries": measure_queries,
     "service": measure_service,
     "two-at-once": measure_two_at_once,
+    "clients": measure_clients,
     "locomotion": measure_locomotion,
     "manipulation": measure_manipulation,
     "quality": measure_quality,

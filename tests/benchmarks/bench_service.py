@@ -65,7 +65,7 @@ def measure_two_at_once() -> Iterator[Measured]:
 
 def _start_once(home: Path) -> tuple[float, float]:
     """Return after how long the service answers [s], and what its API process weighs then [MB]."""
-    port = _free_port()
+    port = free_port()
     begun = time.perf_counter()
     process = subprocess.Popen(
         [sys.executable, "-m", "worker.cli", "serve", "--port", str(port)],
@@ -140,7 +140,8 @@ def _train(seeds: list[int]) -> float:
         return time.perf_counter() - begun
 
 
-def _free_port() -> int:
+def free_port() -> int:
+    """Return a port that nobody listens on."""
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         return probe.getsockname()[1]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+import time
 from collections.abc import Callable, Generator
 from pathlib import Path
 from typing import Any
@@ -10,7 +12,7 @@ import pytest
 from PIL import Image
 from plausible_runs import play_out
 from playwright.sync_api import BrowserContext
-from served_product import PAGE_AND_API, WHOLE, serving
+from served_product import PAGE_AND_API, STARTED_WITHIN_S, WHOLE, serving
 from signed_in import cookies
 
 from backend.store.database import open_database
@@ -84,3 +86,21 @@ def filled_product(tmp_path_factory: pytest.TempPathFactory, find_free_port: Cal
     database.close()
     with serving(home, find_free_port(), PAGE_AND_API) as address:
         yield address
+
+
+@pytest.fixture(scope="module")
+def printed_address(tmp_path_factory: pytest.TempPathFactory, find_free_port: Callable[[], int]) -> Generator[str]:
+    """Serve an empty data directory as `make run` does; return the address that is printed, with its token."""
+    home = tmp_path_factory.mktemp("first")
+    leave_to_draw(home, DRAWN)
+    with serving(home, find_free_port(), WHOLE, needs=("workers_alive", "viewer_alive")):
+        yield _printed(home / "serve.log")
+
+
+def _printed(log: Path) -> str:
+    """Wait until the address to open is printed, which comes a moment after the first answer."""
+    give_up_at = time.monotonic() + STARTED_WITHIN_S
+    while not (found := re.findall(r"http://\S+\?token=\S+", log.read_text())):
+        assert time.monotonic() < give_up_at, log.read_text()
+        time.sleep(0.1)
+    return found[0]

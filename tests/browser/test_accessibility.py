@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -60,6 +60,20 @@ PAGES = {
 """Address of each page, and what is there once it has drawn itself."""
 
 
+ON_TOP: dict[str, tuple[str, Callable[[Page], None], str]] = {
+    "command palette": ("runs", lambda page: page.keyboard.press("Control+k"), "[role=listbox] [role=option]"),
+    "shortcuts": ("runs", lambda page: page.keyboard.press("?"), "[role=dialog] kbd"),
+    "help with a method": ("launch", lambda page: _press(page, "What her-sldr does"), "[role=dialog] p"),
+    "filters": ("runs", lambda page: _press(page, "Filter"), "[role=dialog] [role=switch]"),
+    "columns": ("runs", lambda page: _press(page, "Columns"), "[role=dialog] h3"),
+}
+"""What opens over a page: which page, how it is opened, and what is there then."""
+
+
+def _press(page: Page, name: str) -> None:
+    page.get_by_role("button", name=name, exact=True).first.click(timeout=SOON_MS)
+
+
 @pytest.fixture(scope="module")
 def visitor(browser: Browser, filled_product: str) -> Iterator[Page]:
     """Return a tab with axe inside; all visits share it."""
@@ -96,4 +110,23 @@ def test_nothing_keeps_people_out(filled_product: str, names: dict[str, str], vi
             violations = visitor.evaluate(FIND.replace("OPTIONS", options))
             found += [(width, scheme, violation) for violation in violations if violation["impact"] in GRAVE]
         assert not visitor.evaluate(TOO_WIDE), f"{name} scrolls sideways at {width} px"
+    assert found == []
+
+
+@pytest.mark.parametrize("name", ON_TOP)
+def test_nothing_that_opens_keeps_people_out(filled_product: str, visitor: Page, name: str) -> None:
+    page, open_it, shown = ON_TOP[name]
+    path, drawn = PAGES[page]
+    width, height = SIZES[0]
+    visitor.set_viewport_size({"width": width, "height": height})
+    visitor.emulate_media(color_scheme="light")
+    visitor.goto(filled_product + path)
+    visitor.locator(drawn).first.wait_for(timeout=SOON_MS)
+    open_it(visitor)
+    visitor.locator(shown).first.wait_for(timeout=SOON_MS)
+    found: list[tuple[str, Any]] = []
+    for scheme, options in (("light", ALL_RULES), ("dark", CONTRAST)):
+        visitor.emulate_media(color_scheme=scheme)  # type: ignore[arg-type]
+        violations = visitor.evaluate(FIND.replace("OPTIONS", options))
+        found += [(scheme, violation) for violation in violations if violation["impact"] in GRAVE]
     assert found == []

@@ -23,6 +23,10 @@ import signed_in
 from plausible_runs import WHOLE, play_out
 from served_product import PAGE_AND_API, serving
 
+from backend.api.access.passwords import Passwords
+from backend.store.access.accounts import create_account, set_password
+from backend.store.access.api_tokens import create_token
+from backend.store.access.roles import Role
 from backend.store.claims import Claim
 from backend.store.database import Database, open_database
 from backend.store.settings import Settings, sqlite_url
@@ -60,12 +64,25 @@ PAGES = {
 }
 """Address of each page, and what is there once it has drawn itself."""
 
+ACCESS_PAGES = {
+    "sign-in": ("/sign-in", "main input"),
+    "account": ("/account", "main table"),
+    "accounts": ("/accounts", "main table"),
+}
+"""The same of pages that tell more where people have accounts."""
+
+PEOPLE: dict[str, Role] = {"ada": "admin", "grace": "operator", "katherine": "operator", "visitor": "viewer"}
+"""Who has an account; the first one looks."""
+PASSWORD = "seven purple otters"
+
 
 def main() -> None:
     """Fill, serve, visit, save."""
     parser = argparse.ArgumentParser(description="Take a picture of every page, light and dark.")
     parser.add_argument("directory", type=Path, help="where the pictures go")
-    parser.add_argument("--only", choices=PAGES, help="the one page to take")
+    parser.add_argument(
+        "--only", choices=[*PAGES, *ACCESS_PAGES], action="append", help="a page to take; may be given again"
+    )
     parser.add_argument("--no-tasks", dest="with_tasks", action="store_false", help="draw no pictures of tasks")
     arguments = parser.parse_args()
     directory: Path = arguments.directory
@@ -74,12 +91,16 @@ def main() -> None:
         home = Path(name)
         database = open_database(Settings(home=home, database_url=sqlite_url(home)))
         _fill(database)
+        _let_in(database)
         if arguments.with_tasks:
             render_all_pictures(home)
         path = os.environ.get("SLDR_CHROMIUM", "/usr/bin/chromium")
         browser = playwright.chromium.launch(executable_path=path, args=["--no-sandbox", "--disable-dev-shm-usage"])
+        wanted = arguments.only or [*PAGES, *ACCESS_PAGES]
         with serving(home, _free_port(), PAGE_AND_API) as address:
-            _visit_all(browser, address, database, directory, [arguments.only] if arguments.only else list(PAGES))
+            _visit_all(browser, address, database, directory, [name for name in wanted if name in PAGES])
+        with serving(home, _free_port(), PAGE_AND_API, options=("--accounts",)) as address:
+            _visit_access(browser, address, directory, [name for name in wanted if name in ACCESS_PAGES])
         browser.close()
         database.close()
 
@@ -90,6 +111,13 @@ def _fill(database: Database) -> None:
     play_out(database, EPOCHS, _share_of)
     create_study(database, "Pen, two methods", StudySpec(("HandPenRotate",), ("her", "her-sldr"), SEEDS[:3], "quick"))
     play_out(database, EPOCHS, _share_of, most=1, host="lab-2")
+
+
+def _let_in(database: Database) -> None:
+    """Give people accounts, the first one a password too."""
+    made = [create_account(database, name, role) for name, role in PEOPLE.items()]
+    set_password(database, made[0].id, Passwords().hash(PASSWORD))
+    create_token(database, made[0].id, "notebook on lab-2", "operator", None)
 
 
 def _share_of(claimed: Claim) -> float:
@@ -124,6 +152,26 @@ def _visit_all(browser: Browser, address: str, database: Database, directory: Pa
             page.wait_for_load_state("networkidle")
             _save(page, directory / f"{name}-{scheme}.png")
         page.close()
+
+
+def _visit_access(browser: Browser, address: str, directory: Path, wanted: Sequence[str]) -> None:
+    """Visit the pages that are about people, first as nobody, then as the admin."""
+    for scheme in SCHEMES:
+        context = browser.new_context(
+            viewport={"width": WINDOW[0], "height": WINDOW[1]},
+            color_scheme=scheme,  # type: ignore[arg-type]
+        )
+        page = context.new_page()
+        for name in wanted:
+            path, drawn = ACCESS_PAGES[name]
+            if name != "sign-in":
+                data = {"name": next(iter(PEOPLE)), "password": PASSWORD}
+                context.request.post(f"{address}/api/auth/sign-in", data=data, headers={"Origin": address})
+            page.goto(address + path)
+            page.locator(drawn).first.wait_for(timeout=SOON_MS)
+            page.wait_for_load_state("networkidle")
+            _save(page, directory / f"{name}-{scheme}.png")
+        context.close()
 
 
 def _save(page: Page, path: Path) -> None:

@@ -12,8 +12,11 @@ import pytest
 from argon2 import PasswordHasher, extract_parameters
 from guarded_api import CHEAP, PASSWORD, Guarded
 from live_api import new_client, serving
+from starlette.requests import HTTPConnection
 
+from backend.api.access.callers import Caller
 from backend.api.access.passwords import LANES, MEMORY_KIB, TIME_COST, Passwords, find_weakness
+from backend.api.access.recent_callers import KNOWN_FOR_S, RecentCallers
 from backend.api.app import create_app
 from backend.logs import HumanLines, JsonLines
 from backend.redaction import redact
@@ -201,3 +204,27 @@ def test_secrets_are_taken_out_of_what_is_logged(said: str, shown: str):
     record = logging.LogRecord("uvicorn.access", logging.INFO, "", 0, "%s", (said,), None)
     assert HumanLines().format(record).endswith(shown)
     assert json.loads(JsonLines("api").format(record))["message"] == shown
+
+
+def test_a_page_that_takes_older_answers_is_signed_out_at_once_all_the_same(api: Guarded):
+    browser, patient = api.sign_in("viewer"), {"cache-control": "max-age=5"}
+    assert browser.get("/api/runs", headers=patient).status_code == 200
+    secret = dict(browser.cookies)
+    assert browser.post("/api/auth/sign-out").status_code == 204
+    browser.cookies.update(secret)
+    assert browser.get("/api/runs", headers=patient).status_code == 401
+
+
+def test_somebody_is_known_for_a_second_and_never_longer():
+    now = 0.0
+    recent = RecentCallers(lambda: now)
+    asked = HTTPConnection({"type": "http", "headers": [(b"cookie", b"sldr=a")]})
+    other = HTTPConnection({"type": "http", "headers": [(b"cookie", b"sldr=b")]})
+    ada = Caller("ada", "viewer", "1", "2")
+    recent.remember(asked, ada, recent.now(), writes=3)
+    assert recent.find(asked, 5.0, writes=3) is ada
+    assert recent.find(other, 5.0, writes=3) is None
+    assert recent.find(asked, 0.0, writes=3) is None, "it asked for what is new"
+    assert recent.find(asked, 5.0, writes=4) is None, "she may have been signed out"
+    now = KNOWN_FOR_S + 0.01
+    assert recent.find(asked, 5.0, writes=3) is None

@@ -9,6 +9,7 @@ from hashlib import sha256
 from starlette.requests import HTTPConnection
 
 from backend.api.access.passwords import Passwords
+from backend.api.access.recent_callers import RecentCallers
 from backend.api.access.throttle import Throttle
 from backend.api.access.tickets import Tickets, opens_by_ticket
 from backend.store.access import api_tokens, login_sessions
@@ -31,6 +32,7 @@ class Access:
     passwords: Passwords
     throttle: Throttle
     tickets: Tickets
+    recent: RecentCallers
 
 
 @dataclass(frozen=True)
@@ -67,7 +69,7 @@ TOKEN_VOID = Refusal("This token opens nothing: it is unknown, expired or revoke
 def open_access(settings: Settings, secret: bytes, mode: AccessMode, passwords: Passwords) -> Access:
     """Return what decides who comes in over a data directory."""
     cookie = f"sldr_session_{sha256(secret + b'cookie').hexdigest()[:8]}"
-    return Access(mode, cookie, load_local_token(settings), passwords, Throttle(), Tickets(secret))
+    return Access(mode, cookie, load_local_token(settings), passwords, Throttle(), Tickets(secret), RecentCallers())
 
 
 def find_caller(access: Access, db: Database, connection: HTTPConnection) -> Caller | Refusal:

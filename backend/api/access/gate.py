@@ -8,14 +8,17 @@ from __future__ import annotations
 
 from fastapi import WebSocketException
 from starlette.concurrency import run_in_threadpool
+from starlette.datastructures import Headers
 from starlette.requests import HTTPConnection
 from starlette.responses import RedirectResponse, Response
 from starlette.types import ASGIApp, Receive, Scope, Send
 from starlette.websockets import WebSocket
 
-from backend.api.access.callers import Caller, Refusal, find_caller
+from backend.api.access.callers import TICKET_HOLDER, Caller, Refusal, find_caller
 from backend.api.access.declarations import declaration_of
+from backend.api.access.recent_callers import RecentCallers
 from backend.api.errors import ApiError, problem, problem_answer
+from backend.api.freshness import accepted_age
 from backend.store.access.roles import allows
 from backend.store.errors import StoreUnavailable
 
@@ -75,9 +78,22 @@ async def caller_or_refusal(connection: HTTPConnection) -> Caller | Refusal:
     """Return who asks, or why that is not known; looked up once for each request."""
     state = connection.scope.setdefault("state", {})
     if "caller" not in state:
-        service = connection.app.state.service
-        state["caller"] = await run_in_threadpool(find_caller, service.access, service.database, connection)
+        state["caller"] = await _find(connection)
     return state["caller"]
+
+
+async def _find(connection: HTTPConnection) -> Caller | Refusal:
+    service = connection.app.state.service
+    recent: RecentCallers = service.access.recent
+    at, writes = recent.now(), service.database.writes
+    known = recent.find(connection, accepted_age(Headers(scope=connection.scope)), writes)
+    if known is not None:
+        return known
+    found = await run_in_threadpool(find_caller, service.access, service.database, connection)
+    # A ticket opens one address only, whatever else was shown with it.
+    if isinstance(found, Caller) and found is not TICKET_HOLDER:
+        recent.remember(connection, found, at, writes)
+    return found
 
 
 async def _look(scope: Scope) -> Response | None:

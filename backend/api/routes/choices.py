@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 from fastapi import APIRouter
@@ -11,6 +12,8 @@ from backend.api.access.declarations import needs
 from backend.api.dependencies import ServiceSettings
 from backend.api.errors import ApiError, problem_responses
 from backend.api.schemas import Choices, Method, PresetSummary, Task
+from backend.api.small_pictures import small_form
+from backend.store.settings import Settings
 from sldr_core.config import METHODS, PHASES, TASKS, Phase, TaskSpec, config_schema, config_to_dict
 from sldr_core.errors import UnknownName
 from sldr_core.presets import PRESETS, make_config
@@ -48,12 +51,14 @@ def get_choices() -> Choices:
 @needs("viewer")
 def get_task_picture(task: str, settings: ServiceSettings) -> FileResponse:
     """Send the rendered picture of a task."""
-    if task not in TASKS:
-        raise ApiError(404, str(UnknownName("task", task, TASKS)), "task")
-    path = settings.pictures_directory / f"{task}.png"
-    if not path.is_file():
-        raise ApiError(404, f"The picture of {task} is not drawn yet; the viewer draws it when it starts.")
-    return FileResponse(path, media_type="image/png")
+    return FileResponse(_find_picture(task, settings), media_type="image/png")
+
+
+@router.get("/tasks/{task}/thumbnail", include_in_schema=False)
+@needs("viewer")
+def get_task_thumbnail(task: str, settings: ServiceSettings) -> FileResponse:
+    """Send a small form of a task's picture, where the thumbnail of a run that has none leads."""
+    return FileResponse(small_form(_find_picture(task, settings)))
 
 
 @router.get("/defaults", responses=problem_responses(422))
@@ -76,3 +81,17 @@ def _task(spec: TaskSpec) -> Task:
         success_angle=spec.success_angle,
         picture_url=f"/api/tasks/{spec.name}/picture",
     )
+
+
+def _find_picture(task: str, settings: Settings) -> Path:
+    """Return where the picture of a task lies.
+
+    Raises:
+        ApiError: there is no such task, or it is not drawn yet.
+    """
+    if task not in TASKS:
+        raise ApiError(404, str(UnknownName("task", task, TASKS)), "task")
+    path = settings.pictures_directory / f"{task}.png"
+    if not path.is_file():
+        raise ApiError(404, f"The picture of {task} is not drawn yet; the viewer draws it when it starts.")
+    return path

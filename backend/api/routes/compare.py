@@ -24,28 +24,28 @@ router = APIRouter(prefix="/api/compare", tags=["compare"])
 
 
 @router.get("", responses=problem_responses(404, 422))
-@needs("viewer")
+@needs("viewer", shared=True)
 def get_curves(choice: Choice, view: View, store: Store, memory: Memory) -> CurveComparison:
     """Return learning curves, one panel a task, one curve a group of seeds."""
     return compare_curves(store, memory, choice, view)
 
 
 @router.get("/best", responses=problem_responses(404, 422))
-@needs("viewer")
+@needs("viewer", shared=True)
 def get_best_models(choice: Choice, view: View, store: Store, memory: Memory) -> BestModels:
     """Compare best test success: bars, improvement, profile and efficiency. Of the view, statistic and level count."""
     return compare_best(store, memory, choice, view)
 
 
 @router.get("/metrics", responses=problem_responses(404, 422))
-@needs("viewer")
+@needs("viewer", shared=True)
 def list_compared_metrics(choice: Choice, store: Store, memory: Memory) -> MetricNames:
     """List the metrics that runs have logged."""
     return MetricNames(metrics=list_metric_names(store, select_runs(store, memory, choice).runs))
 
 
 @router.get("/configs", responses=problem_responses(404, 422))
-@needs("viewer")
+@needs("viewer", shared=True)
 def get_config_comparison(
     run: Annotated[list[str], Query(min_length=1, max_length=CONFIGS_AT_MOST, description="Ids of runs.")], store: Store
 ) -> ConfigComparison:

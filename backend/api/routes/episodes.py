@@ -29,7 +29,7 @@ router = APIRouter(prefix="/api/runs/{run_id}/episodes", tags=["runs"])
 
 
 @router.get("", responses=problem_responses(404, 422))
-@needs("viewer")
+@needs("viewer", shared=True)
 def list_run_episodes(
     run_id: str,
     store: Store,
@@ -41,7 +41,7 @@ def list_run_episodes(
     offset: Annotated[int, Query(ge=0, le=LARGEST_NUMBER, description="Rows to leave out.")] = 0,
 ) -> EpisodeList:
     """List the recorded episodes of a run's tests."""
-    runs.get_run(store, run_id)
+    runs.check_run(store, run_id)
     wanted = episodes.EpisodeFilter(tag=tag, epoch=epoch)
     found = episodes.list_episodes(store, run_id, wanted, sort, descending, limit, offset)
     return EpisodeList(episodes=[_episode(row) for row in found.rows], total=found.total, epochs=found.epochs)
@@ -51,7 +51,7 @@ def list_run_episodes(
 @needs("viewer")
 def get_run_episode(run_id: str, epoch: Number, index: Number, store: Store, storage: Storage) -> EpisodeTimelines:
     """Return what happened in one recorded episode, and what the streams and critics said of it."""
-    runs.get_run(store, run_id)
+    runs.check_run(store, run_id)
     row = episodes.find_episode(store, run_id, epoch, index)
     test = read_episodes(storage.bring(files.find_file(store, run_id, row.file)))
     recorded = next((episode for episode in test.episodes if episode.index == index), None)

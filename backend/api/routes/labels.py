@@ -16,7 +16,7 @@ router = APIRouter(prefix="/api", tags=["runs"])
 
 
 @router.get("/tags", responses=problem_responses())
-@needs("viewer")
+@needs("viewer", shared=True)
 def list_tags(store: Store) -> Tags:
     """List every tag in use."""
     return Tags(tags=[TagCount(**asdict(count)) for count in labels.list_tags(store)])

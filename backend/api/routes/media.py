@@ -44,14 +44,14 @@ def get_run_thumbnail(run_id: str, store: Store, storage: Storage, settings: Ser
     except (NotFound, ApiError):
         if not (settings.pictures_directory / f"{run.task}.png").is_file():
             raise ApiError(404, f"There is no picture of run {run_id} yet; the viewer draws one.") from None
-        return RedirectResponse(f"/api/tasks/{run.task}/picture")
+        return RedirectResponse(f"/api/tasks/{run.task}/thumbnail")
 
 
 @router.post("/videos", status_code=202, responses=problem_responses(400, 403, 404, 409, 422))
 @needs("operator")
 def order_video(run_id: str, order: VideoOrder, store: Store) -> Video:
     """Order a video of an episode; one that is there or on its way is not made again, one that failed is."""
-    runs.get_run(store, run_id)
+    runs.check_run(store, run_id)
     source = _find_source(store, run_id, order)
     wanted = order.model_dump()
     what = "newest-policy" if order.epoch is None else f"epoch-{order.epoch:04d}"
@@ -64,7 +64,7 @@ def order_video(run_id: str, order: VideoOrder, store: Store) -> Video:
 @needs("viewer")
 def list_videos(run_id: str, store: Store) -> Videos:
     """List the videos of a run that were ordered, the newest first."""
-    runs.get_run(store, run_id)
+    runs.check_run(store, run_id)
     return Videos(videos=[_answer(job) for job in media_jobs.list_media(store, run_id, "video")])
 
 

@@ -38,7 +38,7 @@ router = APIRouter(prefix="/api", tags=["notices"])
 
 
 @router.get("/notices", responses=problem_responses(422))
-@needs("viewer")
+@needs("viewer", shared=True)
 def list_notices(
     store: Store, since: Annotated[Moment, Query(description="Only what has happened after it.")]
 ) -> Notices:

@@ -20,7 +20,7 @@ router = APIRouter(prefix="/api/queue", tags=["queue"])
 
 
 @router.get("", responses=problem_responses(422))
-@needs("viewer")
+@needs("viewer", shared=True)
 def get_queue(store: Store, limit: Annotated[int, Query(ge=1, le=LARGEST_QUEUE)] = 200) -> Queue:
     """List the first of the runs that have not ended, in the order in which they will start."""
     entries = forecast.list_queue(store)

@@ -32,7 +32,7 @@ router = APIRouter(prefix="/api/runs/{run_id}", tags=["runs"])
 
 
 @router.get("/log", responses=problem_responses(404, 422))
-@needs("viewer")
+@needs("viewer", shared=True)
 def get_run_log(
     run_id: str,
     store: Store,
@@ -44,7 +44,7 @@ def get_run_log(
     ] = None,
 ) -> LogTail:
     """Return the end of a run's log, or what was written after an offset."""
-    runs.get_run(store, run_id)
+    runs.check_run(store, run_id)
     return read_log(_find_log(store, storage, settings.run_directory(run_id) / files.LOG_FILE), after)
 
 
@@ -52,7 +52,7 @@ def get_run_log(
 @needs("viewer")
 def list_run_files(run_id: str, service: ServiceParts) -> RunFiles:
     """List a run's stored files."""
-    runs.get_run(service.database, run_id)
+    runs.check_run(service.database, run_id)
     rows = files.list_files(service.database, run_id)
     return RunFiles(files=[_run_file(row, service.access.tickets) for row in rows])
 
@@ -71,7 +71,7 @@ def download_run_file(
     byte_range: Annotated[str | None, Header(alias="Range", include_in_schema=False)] = None,
 ) -> Response:
     """Send one stored file, or the range of it that is asked for."""
-    runs.get_run(store, run_id)
+    runs.check_run(store, run_id)
     return send_file(storage, files.find_file(store, run_id, name), byte_range)
 
 

@@ -42,7 +42,7 @@ CSV: dict[int | str, dict[str, Any]] = {200: {"content": {"text/csv": {}}, "desc
 
 
 @router.get("/runs", responses=problem_responses(422))
-@needs("viewer")
+@needs("viewer", shared=True)
 def list_runs(
     store: Store,
     wanted: WantedRuns,
@@ -75,7 +75,7 @@ def download_runs(store: Store, wanted: WantedRuns, table: WantedTable) -> Respo
 
 
 @router.get("/run-groups", responses=problem_responses(422))
-@needs("viewer")
+@needs("viewer", shared=True)
 def list_run_groups(
     store: Store,
     wanted: WantedRuns,
@@ -106,7 +106,7 @@ def download_run_groups(
 
 
 @router.get("/metric-names", responses=problem_responses())
-@needs("viewer")
+@needs("viewer", shared=True)
 def list_metrics(store: Store) -> MetricNames:
     """List what runs have logged."""
     return MetricNames(names=list_metric_names(store))

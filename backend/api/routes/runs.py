@@ -22,14 +22,14 @@ router = APIRouter(prefix="/api/runs", tags=["runs"])
 
 
 @router.get("/{run_id}", responses=problem_responses(404, 422))
-@needs("viewer")
+@needs("viewer", shared=True)
 def get_run(run_id: str, store: Store) -> RunDetail:
     """Return everything about one run but its curves and logs."""
     return run_detail(runs.get_run(store, run_id), files.list_files(store, run_id))
 
 
 @router.get("/{run_id}/metrics", responses=problem_responses(404, 422))
-@needs("viewer")
+@needs("viewer", shared=True)
 def get_run_metrics(
     run_id: str,
     store: Store,
@@ -37,12 +37,12 @@ def get_run_metrics(
     superseded: Annotated[bool, Query(description="Whether to add the points that a later attempt replaced.")] = False,
 ) -> MetricBatch:
     """Return the points of a run after a cursor, oldest first; ask again until there are none."""
-    runs.get_run(store, run_id)
+    runs.check_run(store, run_id)
     return MetricBatch(**asdict(metrics.read_metrics(store, run_id, after, superseded=superseded)))
 
 
 @router.get("/{run_id}/attempts", responses=problem_responses(404, 422))
-@needs("viewer")
+@needs("viewer", shared=True)
 def list_run_attempts(run_id: str, store: Store) -> Attempts:
     """Return a run's attempts, oldest first."""
     return Attempts(
@@ -63,7 +63,7 @@ def list_run_attempts(run_id: str, store: Store) -> Attempts:
 
 
 @router.get("/{run_id}/events", responses=problem_responses(404, 422))
-@needs("viewer")
+@needs("viewer", shared=True)
 def list_run_events(run_id: str, store: Store) -> RunEvents:
     """Return a run's history, oldest first."""
     rows = runs.list_events(store, run_id)

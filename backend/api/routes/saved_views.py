@@ -16,7 +16,7 @@ router = APIRouter(prefix="/api/views", tags=["views"])
 
 
 @router.get("", responses=problem_responses())
-@needs("viewer")
+@needs("viewer", shared=True)
 def list_views(store: Store) -> SavedViews:
     """List every saved view, by name."""
     return SavedViews(views=[SavedView(**asdict(view)) for view in saved_views.list_views(store)])

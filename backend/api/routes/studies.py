@@ -46,7 +46,7 @@ router = APIRouter(prefix="/api/studies", tags=["studies"])
 
 
 @router.get("", responses=problem_responses(422))
-@needs("viewer")
+@needs("viewer", shared=True)
 def list_studies(
     store: Store,
     deleted: Annotated[bool, Query(description="The studies that a person hid, instead of all others.")] = False,
@@ -90,7 +90,7 @@ def create_study(wish: StudyLaunch, store: Store, settings: ServiceSettings) -> 
 
 
 @router.get("/{study_id}", responses=problem_responses(404, 422))
-@needs("viewer")
+@needs("viewer", shared=True)
 def get_study(study_id: str, store: Store) -> StudyDetail:
     """Return a study with all its cells."""
     return study_detail(matrix.get_study(store, study_id))

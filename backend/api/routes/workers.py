@@ -19,7 +19,7 @@ router = APIRouter(prefix="/api/workers", tags=["workers"])
 
 
 @router.get("", responses=problem_responses())
-@needs("viewer")
+@needs("viewer", shared=True)
 def list_workers(store: Store) -> Workers:
     """List the workers known to the store, longest serving first."""
     rows = workers.list_workers(store)

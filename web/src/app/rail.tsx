@@ -3,6 +3,7 @@ import { Tooltip } from '@mantine/core';
 import { Link } from '@tanstack/react-router';
 import { SchemeSwitch } from '@/app/scheme-switch';
 import { Icon, type IconName } from '@/components/icon';
+import { useMay } from '@/lib/access';
 import { PLACES, type PlacePath } from '@/lib/places';
 import classes from './shell.module.css';
 
@@ -24,6 +25,7 @@ interface Props {
 }
 
 export function Rail({ isNarrow, onToggle, onFind }: Props) {
+  const mayLaunch = useMay('operator');
   return (
     <nav className={classes.rail} aria-label="Main">
       <Link to="/" className={classes.brand} aria-label="SLDR, all runs">
@@ -31,7 +33,7 @@ export function Rail({ isNarrow, onToggle, onFind }: Props) {
         <span className={classes.label}>SLDR</span>
       </Link>
       <div className={classes.places}>
-        {PLACES.map(({ to, label }) => (
+        {PLACES.filter(({ to }) => mayLaunch || to !== '/launch').map(({ to, label }) => (
           <Tooltip key={to} label={label} position="right" disabled={!isNarrow}>
             <Link
               to={to}

@@ -6,6 +6,7 @@ import { ConnectionBanner } from '@/app/connection-banner';
 import { type Guide, KeyboardGuide } from '@/app/keyboard-guide';
 import { Notices } from '@/app/notices';
 import { Rail } from '@/app/rail';
+import { RoleNote } from '@/app/role-note';
 import classes from './shell.module.css';
 
 export function Shell() {
@@ -25,6 +26,7 @@ export function Shell() {
       <div className={classes.content}>
         <ConnectionBanner />
         <Notices />
+        <RoleNote />
         <main id="main" tabIndex={-1} className={classes.main}>
           <Outlet />
         </main>

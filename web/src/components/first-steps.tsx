@@ -43,7 +43,7 @@ export function FirstSteps({ isAtForm = false }: Props) {
         </li>
         <li>
           <b>Launch and watch.</b> The run's page shows success, curves and the robot in 3D while it learns. With the
-          preset quick, FetchPush takes about ten minutes on two cores.
+          preset quick, FetchPush takes about six minutes on two cores.
         </li>
       </ol>
       {!isAtForm && (

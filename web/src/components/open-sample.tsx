@@ -2,6 +2,7 @@
 import { Button } from '@mantine/core';
 import { queryOptions, useMutation, useQuery, useQueryClient } from '@tanstack/react-query';
 import { useNavigate } from '@tanstack/react-router';
+import { useMay } from '@/lib/access';
 import { client, sentence, unwrap } from '@/lib/api';
 
 /** Whether there is one; it changes only with the server's version. */
@@ -15,6 +16,7 @@ export function OpenSample() {
   const { data } = useQuery(sampleQuery);
   const queries = useQueryClient();
   const navigate = useNavigate();
+  const isMine = useMay('operator');
   const opening = useMutation({
     mutationFn: () => unwrap(client.POST('/api/study-files/sample')),
     onSuccess: async ({ study_id }) => {
@@ -22,7 +24,7 @@ export function OpenSample() {
       await navigate({ to: '/studies/$studyId', params: { studyId: study_id } });
     },
   });
-  if (!data || data.size === null) return null;
+  if (!data || data.size === null || !isMine) return null;
   return (
     <>
       <Button

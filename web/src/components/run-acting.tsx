@@ -1,11 +1,14 @@
 /** Do something to runs: ask first where something is lost, say what became of it, offer the way back. */
-import { Button, Group, Modal, Text } from '@mantine/core';
-import { type ReactNode, useState } from 'react';
+import { lazy, type ReactNode, Suspense, useState } from 'react';
 import { useToast } from '@/components/toasts';
 import { sentence } from '@/lib/api';
-import { formatPlural } from '@/lib/format';
 import { type Actable, type Action, summarise } from '@/lib/run-actions';
 import { useRunActions } from '@/lib/use-run-actions';
+
+/** Few runs are cancelled while they train, and the dialog is half of what is loaded for it. */
+const CancelQuestion = lazy(() =>
+  import('@/components/cancel-question').then((part) => ({ default: part.CancelQuestion })),
+);
 
 export interface RunActing {
   /** Do it, or ask first. */
@@ -19,7 +22,7 @@ export interface RunActing {
 export function useRunActing(onDone?: (action: Action, runIds: readonly string[]) => void): RunActing {
   const toast = useToast();
   const wishes = useRunActions();
-  const [asked, setAsked] = useState<readonly Actable[]>([]);
+  const [asked, setAsked] = useState<readonly Actable[] | null>(null);
 
   const send = (action: Action, runIds: readonly string[]): void => {
     wishes.mutate(
@@ -47,30 +50,14 @@ export function useRunActing(onDone?: (action: Action, runIds: readonly string[]
   const confirm = (): void => {
     send(
       'cancel',
-      asked.map((run) => run.id),
+      (asked ?? []).map((run) => run.id),
     );
     close();
   };
-  const question = (
-    <Modal opened={asked.length > 0} onClose={close} title={questionOf(asked)} centered>
-      <Text size="sm">
-        Training ends within seconds, and what was learnt since the last checkpoint is lost. Curves and files stay, and
-        a cancelled run can be retried from its checkpoint. To go on later without any loss, pause instead.
-        {asked.some((run) => run.phase === 'locomotion') && ' Manipulation runs that need it go on waiting.'}
-      </Text>
-      <Group justify="flex-end" mt="lg" gap="xs">
-        <Button variant="default" onClick={close} data-autofocus>
-          Keep {asked.length > 1 ? 'them' : 'it'}
-        </Button>
-        <Button color="red.9" onClick={confirm}>
-          Yes, cancel {asked.length > 1 ? 'them' : 'it'}
-        </Button>
-      </Group>
-    </Modal>
+  const question = asked && (
+    <Suspense fallback={null}>
+      <CancelQuestion runs={asked} onKeep={close} onConfirm={confirm} />
+    </Suspense>
   );
   return { act, isActing: wishes.isPending, question };
-}
-
-function questionOf(runs: readonly Actable[]): string {
-  return runs.length > 1 ? `Cancel ${formatPlural(runs.length, 'run')}?` : 'Cancel this run?';
 }

@@ -2,6 +2,7 @@
 import { Button } from '@mantine/core';
 import { useQuery } from '@tanstack/react-query';
 import { useNavigate } from '@tanstack/react-router';
+import { useMay } from '@/lib/access';
 import { sentence } from '@/lib/api';
 import { SAMPLE_TEMPLATE, templatesQuery } from '@/lib/studies';
 import { useLaunchStudy } from '@/lib/use-launch-study';
@@ -10,8 +11,9 @@ export function SampleStudy() {
   const { data } = useQuery(templatesQuery);
   const launching = useLaunchStudy();
   const navigate = useNavigate();
+  const isMine = useMay('operator');
   const template = data?.templates.find(({ name }) => name === SAMPLE_TEMPLATE);
-  if (template === undefined) return null;
+  if (template === undefined || !isMine) return null;
   const launch = (): void =>
     launching.mutate(
       { name: template.title, note: template.summary, spec: template.spec },

@@ -1,5 +1,5 @@
 /** Who is signed in, and what they may do. */
-import { queryOptions, useMutation, useQueryClient } from '@tanstack/react-query';
+import { queryOptions, useMutation, useQuery, useQueryClient } from '@tanstack/react-query';
 import type { CallerInfo } from '@/client/schema.gen';
 import { client, Refused, unwrap } from '@/lib/api';
 
@@ -24,6 +24,15 @@ export function allows(role: Role, needed: Role): boolean {
   const rank = (name: Role) => ROLES.findIndex((known) => known.name === name);
   return rank(role) >= rank(needed);
 }
+
+/** Whether whoever looks may do what needs a role. Until that is known nothing is kept from them: the server decides. */
+export function useMay(needed: Role): boolean {
+  const role = useQuery(meQuery).data?.caller?.role;
+  return role === undefined || allows(role, needed);
+}
+
+/** Why a button is there and cannot be pressed. */
+export const NOT_YOURS = 'Your role may look, not launch. An admin can give you the role operator.';
 
 /** Whether the server does not know who asks. */
 export function isSignedOut(error: unknown): boolean {

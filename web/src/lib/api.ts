@@ -5,6 +5,8 @@ import type { Problem, paths } from '@/client/schema.gen';
 // fetch is looked up at each call, so that a test may replace it.
 export const client = createClient<paths>({
   baseUrl: typeof window === 'undefined' ? '' : window.location.origin,
+  // Many pages ask for the same within a second: the server may answer all with one answer.
+  headers: { 'Cache-Control': 'max-age=1' },
   fetch: (request) => globalThis.fetch(request),
 });
 
@@ -52,7 +54,8 @@ export function sentence(error: unknown): string {
   return error instanceof Error ? error.message : 'Something went wrong that has no name. Reload the page.';
 }
 
-function problemsOf(body: unknown, status: number): readonly Problem[] {
+/** What a refusal's body says, or one sentence in place of a body that says nothing. */
+export function problemsOf(body: unknown, status: number): readonly Problem[] {
   if (typeof body === 'object' && body !== null && 'problems' in body && Array.isArray(body.problems)) {
     return body.problems as Problem[];
   }

@@ -4,6 +4,7 @@ import { useDebouncedValue } from '@mantine/hooks';
 import { keepPreviousData, useQuery } from '@tanstack/react-query';
 import { useNavigate } from '@tanstack/react-router';
 import type { Choices, RunSummary, StudySummary } from '@/client/schema.gen';
+import { useMay } from '@/lib/access';
 import { client, unwrap } from '@/lib/api';
 import { ACCOUNT, PLACES } from '@/lib/places';
 import { choicesQuery } from '@/lib/queries';
@@ -18,13 +19,14 @@ type Navigate = ReturnType<typeof useNavigate>;
 
 export function useCommands(text: string, onShowShortcuts: () => void): CommandGroup[] {
   const navigate = useNavigate();
+  const mayLaunch = useMay('operator');
   const choices = useQuery(choicesQuery).data;
   const [asked] = useDebouncedValue(text.trim(), TYPING_REST_MS);
   const runs = useQuery(foundRunsQuery(asked)).data?.runs ?? [];
   const studies = useQuery(studiesQuery(false)).data?.studies ?? [];
   return [
-    { title: 'Pages', commands: pages(navigate) },
-    { title: 'Launch', commands: choices ? launches(choices, navigate) : [], isLong: true },
+    { title: 'Pages', commands: pages(navigate, mayLaunch) },
+    { title: 'Launch', commands: choices && mayLaunch ? launches(choices, navigate) : [], isLong: true },
     {
       title: asked === '' ? 'Newest runs' : 'Runs',
       commands: runs.map((run) => openRun(run, navigate)),
@@ -45,14 +47,16 @@ function foundRunsQuery(text: string) {
   };
 }
 
-function pages(navigate: Navigate): Command[] {
-  const places = [...PLACES, ACCOUNT].map(({ to, label, key }) => ({
+function pages(navigate: Navigate, mayLaunch: boolean): Command[] {
+  const shown = [...PLACES, ACCOUNT].filter(({ to }) => mayLaunch || to !== '/launch');
+  const places = shown.map(({ to, label, key }) => ({
     id: `page ${to}`,
     label,
     note: `g ${key}`,
     words: 'go to page',
     perform: () => void navigate({ to }),
   }));
+  if (!mayLaunch) return places;
   const newStudy = { id: 'page /studies/new', label: 'New study', words: 'go to page launch compare' };
   return [...places, { ...newStudy, perform: () => void navigate({ to: '/studies/new' }) }];
 }

@@ -5,6 +5,7 @@ import { useState } from 'react';
 import type { QueueEntry } from '@/client/schema.gen';
 import { ButtonLink } from '@/components/anchor-link';
 import { Freshness } from '@/components/freshness';
+import { OnlyFor } from '@/components/only-for';
 import { SentencePanel } from '@/components/sentence-panel';
 import { sentence } from '@/lib/api';
 import { formatPlural, formatUntil } from '@/lib/format';
@@ -37,7 +38,14 @@ export function QueuePage() {
         </SentencePanel>
       )}
       {data?.entries.length === 0 && (
-        <SentencePanel title="Nothing runs and nothing waits" actions={<ButtonLink to="/launch">New run</ButtonLink>}>
+        <SentencePanel
+          title="Nothing runs and nothing waits"
+          actions={
+            <OnlyFor least="operator">
+              <ButtonLink to="/launch">New run</ButtonLink>
+            </OnlyFor>
+          }
+        >
           Launched runs stand here until they have ended, in the order in which they start.
         </SentencePanel>
       )}

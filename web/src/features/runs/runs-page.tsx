@@ -1,24 +1,24 @@
 /** All runs, live: a table that is filtered, sorted, grouped and labelled on the server. */
 import { useMediaQuery } from '@mantine/hooks';
 import { getRouteApi } from '@tanstack/react-router';
-import { useCallback, useState } from 'react';
+import { Suspense, useCallback, useState } from 'react';
 import { ButtonLink } from '@/components/anchor-link';
 import { Freshness } from '@/components/freshness';
 import { Icon } from '@/components/icon';
+import { OnlyFor } from '@/components/only-for';
 import { SentencePanel } from '@/components/sentence-panel';
 import { sentence } from '@/lib/api';
 import { formatPlural } from '@/lib/format';
-import { BulkBar } from './components/bulk-bar';
 import { ColumnChooser } from './components/column-chooser';
 import { CsvLink } from './components/csv-link';
 import { FilterChips } from './components/filter-chips';
 import { GroupChooser } from './components/group-chooser';
+import { BulkBar, SortField } from './components/lazy-parts';
 import { NoRuns } from './components/no-runs';
 import { RunCards } from './components/run-cards';
 import { FilterPanel, SearchField } from './components/run-filters';
 import classes from './components/runs.module.css';
 import { RunsTable } from './components/runs-table';
-import { SortField } from './components/sort-field';
 import { ViewsMenu } from './components/views-menu';
 import type { Range } from './lines';
 import type { RunsSearch } from './search';
@@ -56,16 +56,20 @@ export function RunsPage() {
         <h1>{search.deleted ? 'Deleted runs' : 'Runs'}</h1>
         <span className="faint number">{total !== undefined && formatPlural(total, 'run')}</span>
         <Freshness updatedAt={lines.updatedAt} />
-        <ButtonLink to="/launch" leftSection={<Icon name="launch" size={14} />} ml="auto">
-          New run
-        </ButtonLink>
+        <OnlyFor least="operator">
+          <ButtonLink to="/launch" leftSection={<Icon name="launch" size={14} />} ml="auto">
+            New run
+          </ButtonLink>
+        </OnlyFor>
       </div>
       <search className={classes.tools}>
         <SearchField search={search} onChange={change} />
         <FilterPanel search={search} onChange={change} />
         <GroupChooser search={search} onChange={change} />
         <ColumnChooser search={search} hasTable={!isNarrow} onChange={change} />
-        {(isNarrow || search.group) && <SortField search={search} onChange={change} />}
+        <Suspense fallback={null}>
+          {(isNarrow || search.group) && <SortField search={search} onChange={change} />}
+        </Suspense>
         <ViewsMenu />
         <CsvLink search={search} />
       </search>
@@ -77,18 +81,20 @@ export function RunsPage() {
       )}
       {total === 0 && <NoRuns search={search} />}
       {lines.count > 0 && <Lines search={search} lines={lines} table={table} onRange={setShown} />}
-      {selected.length > 0 && (
-        <BulkBar
-          runs={selected}
-          selection={table.selection}
-          total={total ?? 0}
-          onSelectAll={
-            total !== undefined && selected.length < total && total <= MOST_SELECTED
-              ? () => table.selectAll(true)
-              : undefined
-          }
-        />
-      )}
+      <Suspense fallback={null}>
+        {selected.length > 0 && (
+          <BulkBar
+            runs={selected}
+            selection={table.selection}
+            total={total ?? 0}
+            onSelectAll={
+              total !== undefined && selected.length < total && total <= MOST_SELECTED
+                ? () => table.selectAll(true)
+                : undefined
+            }
+          />
+        )}
+      </Suspense>
     </>
   );
 }

@@ -4,6 +4,7 @@ import { getRouteApi } from '@tanstack/react-router';
 import { AnchorLink, ButtonLink } from '@/components/anchor-link';
 import { Freshness } from '@/components/freshness';
 import { Icon } from '@/components/icon';
+import { OnlyFor } from '@/components/only-for';
 import { OpenSample } from '@/components/open-sample';
 import { SampleStudy } from '@/components/sample-study';
 import { SentencePanel } from '@/components/sentence-panel';
@@ -11,6 +12,7 @@ import { sentence } from '@/lib/api';
 import { studiesQuery } from '@/lib/studies';
 import classes from './components/studies.module.css';
 import { StudyRow } from './components/study-row';
+import { UploadStudy } from './components/upload-study';
 
 const route = getRouteApi('/studies');
 
@@ -28,9 +30,12 @@ export function StudiesPage() {
           <AnchorLink to="/studies" search={{ deleted: isDeleted ? undefined : 'yes' }} fz="sm">
             {isDeleted ? 'All other studies' : 'Deleted studies'}
           </AnchorLink>
-          <ButtonLink to="/studies/new" leftSection={<Icon name="launch" size={14} />}>
-            New study
-          </ButtonLink>
+          <OnlyFor least="operator">
+            <UploadStudy />
+            <ButtonLink to="/studies/new" leftSection={<Icon name="launch" size={14} />}>
+              New study
+            </ButtonLink>
+          </OnlyFor>
         </span>
       </div>
       {error && !data && (
@@ -57,9 +62,11 @@ function NoStudies() {
       title="Nothing has been compared yet"
       actions={
         <>
-          <ButtonLink to="/studies/new" size="lg" variant="default">
-            Choose what to compare
-          </ButtonLink>
+          <OnlyFor least="operator">
+            <ButtonLink to="/studies/new" size="lg" variant="default">
+              Choose what to compare
+            </ButtonLink>
+          </OnlyFor>
           <OpenSample />
           <SampleStudy />
         </>

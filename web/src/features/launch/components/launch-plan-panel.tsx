@@ -4,6 +4,7 @@ import type { LaunchPlan, PlannedRun } from '@/client/schema.gen';
 import { AnchorLink } from '@/components/anchor-link';
 import { Icon } from '@/components/icon';
 import { WaysIn } from '@/components/ways-in';
+import { NOT_YOURS, useMay } from '@/lib/access';
 import { formatPlural, formatShare } from '@/lib/format';
 import { launchCommand, launchScript } from '@/lib/ways-in';
 import type { LaunchForm } from '../use-launch-form';
@@ -22,6 +23,7 @@ interface Props {
 
 export function LaunchPlanPanel({ form, problems, fieldProblems, isLaunching }: Props) {
   const { plan, isPlanning } = form;
+  const isMine = useMay('operator');
   const added = plan?.runs.filter(isTrained).length;
   return (
     <aside className={`card ${classes.plan}`} aria-label="What will be queued">
@@ -48,10 +50,11 @@ export function LaunchPlanPanel({ form, problems, fieldProblems, isLaunching }: 
         fullWidth
         size="md"
         loading={isLaunching}
-        disabled={form.launch === null || plan === undefined || isPlanning || fieldProblems.length > 0}
+        disabled={!isMine || form.launch === null || plan === undefined || isPlanning || fieldProblems.length > 0}
       >
         {added === undefined ? 'Launch' : added === 0 ? 'Open what exists' : `Launch ${formatPlural(added, 'run')}`}
       </Button>
+      {!isMine && <p className="faint">{NOT_YOURS}</p>}
       {form.launch && (
         <WaysIn
           command={launchCommand(form.launch, window.location.origin)}

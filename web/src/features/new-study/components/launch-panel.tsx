@@ -2,6 +2,7 @@
 import { Button, TextInput } from '@mantine/core';
 import { PreviewSums } from '@/components/preview-sums';
 import { WaysIn } from '@/components/ways-in';
+import { NOT_YOURS, useMay } from '@/lib/access';
 import { Refused, sentence } from '@/lib/api';
 import { formatPlural } from '@/lib/format';
 import { studyCommand, studyScript } from '@/lib/ways-in';
@@ -18,6 +19,7 @@ interface Props {
 
 export function LaunchPanel({ form, refusal, isLaunching, onName }: Props) {
   const { preview, isPreviewing, problems } = form;
+  const isMine = useMay('operator');
   const marked = [problems.tasks, problems.methods, problems.seeds, ...Object.values(problems.rows)].filter(Boolean);
   const refused = [form.refusal, refusal].flatMap(sentencesOf);
   return (
@@ -42,7 +44,7 @@ export function LaunchPanel({ form, refusal, isLaunching, onName }: Props) {
         fullWidth
         size="md"
         loading={isLaunching}
-        disabled={form.spec === null || preview === undefined || isPreviewing}
+        disabled={!isMine || form.spec === null || preview === undefined || isPreviewing}
       >
         {preview === undefined
           ? 'Launch the study'
@@ -50,6 +52,7 @@ export function LaunchPanel({ form, refusal, isLaunching, onName }: Props) {
             ? 'Gather what exists'
             : `Launch ${formatPlural(preview.queued, 'run')}`}
       </Button>
+      {!isMine && <p className="faint">{NOT_YOURS}</p>}
       {form.spec && (
         <WaysIn
           command={studyCommand(form.name, form.spec, window.location.origin)}

@@ -2,6 +2,7 @@
 import { useLayoutEffect, useRef, useState } from 'react';
 import type { QueueEntry } from '@/client/schema.gen';
 import { useToast } from '@/components/toasts';
+import { useMay } from '@/lib/access';
 import { sentence } from '@/lib/api';
 import { runTitle } from '@/lib/run-title';
 import { useMoveRun } from '../api/move-run';
@@ -12,6 +13,7 @@ import { QueueRow } from './queue-row';
 export function QueueList({ entries }: { entries: readonly QueueEntry[] }) {
   const toast = useToast();
   const moving = useMoveRun();
+  const isMine = useMay('operator');
   const [dragged, setDragged] = useState<string | null>(null);
   const [news, setNews] = useState('');
   const focused = useKeptFocus(entries.map((entry) => entry.run.id).join());
@@ -25,8 +27,8 @@ export function QueueList({ entries }: { entries: readonly QueueEntry[] }) {
   return (
     <>
       <p className={`faint ${classes.help}`}>
-        Drag a queued run to another place, use its arrows, or press Alt with the up and down keys. Runs of a higher
-        priority start first.
+        {isMine && 'Drag a queued run to another place, use its arrows, or press Alt with the up and down keys. '}
+        Runs of a higher priority start first.
       </p>
       <ol className={`card ${classes.list}`} aria-label="Queue">
         {entries.map((entry) => {
@@ -35,7 +37,7 @@ export function QueueList({ entries }: { entries: readonly QueueEntry[] }) {
             <QueueRow
               key={id}
               entry={entry}
-              isMovable={isMovable(entry)}
+              isMovable={isMine && isMovable(entry)}
               isDragged={dragged === id}
               isTarget={dragged !== null && dragged !== id && isMovable(entry)}
               onDrag={(isDragging) => setDragged(isDragging ? id : null)}
@@ -43,8 +45,8 @@ export function QueueList({ entries }: { entries: readonly QueueEntry[] }) {
                 if (dragged !== null) move(dropped(entries, dragged, id, isLower));
                 setDragged(null);
               }}
-              up={stepped(entries, id, -1)}
-              down={stepped(entries, id, 1)}
+              up={isMine ? stepped(entries, id, -1) : undefined}
+              down={isMine ? stepped(entries, id, 1) : undefined}
               onMove={move}
             />
           );

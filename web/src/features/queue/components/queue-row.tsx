@@ -4,6 +4,7 @@ import { type DragEvent, type KeyboardEvent, useRef, useState } from 'react';
 import type { QueueEntry } from '@/client/schema.gen';
 import { AnchorLink } from '@/components/anchor-link';
 import { Icon } from '@/components/icon';
+import { OnlyFor } from '@/components/only-for';
 import { PriorityField } from '@/components/priority-field';
 import { Reason } from '@/components/reason';
 import { RunRemedy } from '@/components/run-remedy';
@@ -139,16 +140,18 @@ function Priority({ entry: { run } }: { entry: QueueEntry }) {
   return (
     <span className={classes.priority}>
       <span className="faint">Priority</span>
-      <PriorityField
-        value={run.priority}
-        label={`Priority of ${runTitle(run)}`}
-        onSet={(priority) =>
-          setting.mutate(
-            { runIds: [run.id], priority },
-            { onError: (error) => toast({ text: sentence(error), isProblem: true }) },
-          )
-        }
-      />
+      <OnlyFor least="operator" otherwise={<span className="number">{run.priority}</span>}>
+        <PriorityField
+          value={run.priority}
+          label={`Priority of ${runTitle(run)}`}
+          onSet={(priority) =>
+            setting.mutate(
+              { runIds: [run.id], priority },
+              { onError: (error) => toast({ text: sentence(error), isProblem: true }) },
+            )
+          }
+        />
+      </OnlyFor>
     </span>
   );
 }

@@ -2,6 +2,7 @@
 import { Button, Loader } from '@mantine/core';
 import { useQuery } from '@tanstack/react-query';
 import { useEffect, useRef } from 'react';
+import { useMay } from '@/lib/access';
 import { sentence } from '@/lib/api';
 import { isOnItsWay, useOrderVideo, videosQuery } from '../api/videos';
 import { INSET, isInset, stepAtTime, timeOfStep } from '../video-sizes';
@@ -18,6 +19,7 @@ interface Props {
 export function CameraInset({ runId, epoch, number, step }: Props) {
   const { data } = useQuery(videosQuery(runId));
   const order = useOrderVideo(runId);
+  const isMine = useMay('operator');
   const video = useRef<HTMLVideoElement>(null);
   const drawn = data?.videos.find((video) => video.epoch === epoch && video.number === number && isInset(video));
   const url = drawn?.url;
@@ -47,6 +49,7 @@ export function CameraInset({ runId, epoch, number, step }: Props) {
       </p>
     );
   }
+  if (!isMine) return null;
   return (
     <p className={classes.beside}>
       <Button

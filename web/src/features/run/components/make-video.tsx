@@ -2,6 +2,7 @@
 import { Button, NativeSelect } from '@mantine/core';
 import { useState } from 'react';
 import { useToast } from '@/components/toasts';
+import { useMay } from '@/lib/access';
 import { sentence } from '@/lib/api';
 import { formatName } from '@/lib/format';
 import { useOrderVideo } from '../api/videos';
@@ -20,8 +21,10 @@ interface Props {
 export function MakeVideo({ runId, epoch, number = 0, label = 'Make a video' }: Props) {
   const toast = useToast();
   const order = useOrderVideo(runId);
+  const isMine = useMay('operator');
   const [size, setSize] = useState<SizeName>('medium');
   const [format, setFormat] = useState<Format>('mp4');
+  if (!isMine) return null;
   const make = (): void =>
     order.mutate(
       { epoch: epoch ?? null, number, format, ...SIZES[size] },

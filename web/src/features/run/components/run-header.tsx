@@ -5,6 +5,7 @@ import type { RunDetail } from '@/client/schema.gen';
 import { AnchorLink, ButtonLink } from '@/components/anchor-link';
 import { Freshness } from '@/components/freshness';
 import { Icon } from '@/components/icon';
+import { OnlyFor } from '@/components/only-for';
 import { Reason } from '@/components/reason';
 import { RunThumbnail } from '@/components/run-thumbnail';
 import { StateBadge } from '@/components/state-badge';
@@ -41,7 +42,9 @@ export function RunHeader({ run, updatedAt }: { run: RunDetail; updatedAt: numbe
           >
             Launch again
           </ButtonLink>
-          <RunActions run={run} />
+          <OnlyFor least="operator">
+            <RunActions run={run} />
+          </OnlyFor>
         </span>
       </div>
       {run.deleted_at !== null && (

@@ -2,6 +2,7 @@
 import { Button, Group, Textarea } from '@mantine/core';
 import { type ReactNode, useState } from 'react';
 import type { RunDetail } from '@/client/schema.gen';
+import { OnlyFor } from '@/components/only-for';
 import { TagChips } from '@/components/tag-chips';
 import { TagField } from '@/components/tag-field';
 import { useToast } from '@/components/toasts';
@@ -17,12 +18,14 @@ export function RunLabels({ run }: { run: RunDetail }) {
   return (
     <div className={classes.labels}>
       <TagChips tags={run.tags} />
-      <Button variant="subtle" size="compact-xs" onClick={() => setEdited('tags')}>
-        {run.tags.length > 0 ? 'Edit tags' : 'Add tags'}
-      </Button>
-      <Button variant="subtle" size="compact-xs" onClick={() => setEdited('notes')}>
-        {run.notes === '' ? 'Add notes' : 'Edit notes'}
-      </Button>
+      <OnlyFor least="operator">
+        <Button variant="subtle" size="compact-xs" onClick={() => setEdited('tags')}>
+          {run.tags.length > 0 ? 'Edit tags' : 'Add tags'}
+        </Button>
+        <Button variant="subtle" size="compact-xs" onClick={() => setEdited('notes')}>
+          {run.notes === '' ? 'Add notes' : 'Edit notes'}
+        </Button>
+      </OnlyFor>
       {run.notes !== '' && <p className={classes.notes}>{run.notes}</p>}
     </div>
   );

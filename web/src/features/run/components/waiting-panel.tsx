@@ -3,6 +3,7 @@ import { Button } from '@mantine/core';
 import { useQuery } from '@tanstack/react-query';
 import type { RunDetail } from '@/client/schema.gen';
 import { ButtonLink } from '@/components/anchor-link';
+import { OnlyFor } from '@/components/only-for';
 import { useRunActing } from '@/components/run-acting';
 import { RunProgress } from '@/components/run-progress';
 import { SentencePanel } from '@/components/sentence-panel';
@@ -24,7 +25,11 @@ export function WaitingPanel({ run, locomotionId }: { run: RunDetail; locomotion
           <ButtonLink to="/runs/$runId" params={{ runId: locomotionId }} variant="default">
             {run.is_below_gate ? 'See the locomotion run' : 'Watch the locomotion run'}
           </ButtonLink>
-          {run.is_below_gate && <Release run={run} />}
+          {run.is_below_gate && (
+            <OnlyFor least="operator">
+              <Release run={run} />
+            </OnlyFor>
+          )}
         </>
       }
     >

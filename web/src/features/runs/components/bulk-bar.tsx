@@ -4,6 +4,7 @@ import { useDisclosure } from '@mantine/hooks';
 import type { RunSummary } from '@/client/schema.gen';
 import { ACTION_ICONS } from '@/components/action-icons';
 import { Icon } from '@/components/icon';
+import { OnlyFor } from '@/components/only-for';
 import { PriorityField } from '@/components/priority-field';
 import { useRunActing } from '@/components/run-acting';
 import { useToast } from '@/components/toasts';
@@ -42,11 +43,13 @@ export function BulkBar({ runs, selection, total, onSelectAll }: Props) {
         </Button>
       )}
       <span className={classes.bulkActions}>
-        {ACTIONS.map((action) => (
-          <BulkAction key={action} action={action} runs={runs} isBusy={isActing} onAct={act} />
-        ))}
-        {waiting.length > 0 && <BulkPriority runs={waiting} />}
-        <BulkTags runs={runs} />
+        <OnlyFor least="operator">
+          {ACTIONS.map((action) => (
+            <BulkAction key={action} action={action} runs={runs} isBusy={isActing} onAct={act} />
+          ))}
+          {waiting.length > 0 && <BulkPriority runs={waiting} />}
+          <BulkTags runs={runs} />
+        </OnlyFor>
         <BulkCompare runs={runs} />
       </span>
       <Button variant="subtle" size="compact-sm" onClick={selection.clear}>

@@ -1,10 +1,11 @@
 /** Put runs in groups: by anything but the seed, with the spread of one metric. */
 import { Button, Checkbox, FocusTrap, Popover } from '@mantine/core';
+import { Suspense } from 'react';
 import { USUAL_SPREAD } from '../api/list-groups';
 import { GROUP_NAMES } from '../group-words';
 import { parseMetricColumn, statisticName } from '../metric-columns';
 import { ALL_BUT_SEED, GROUP_KEYS, type GroupKey, type RunsSearch } from '../search';
-import { MetricPicker } from './column-chooser';
+import { MetricPicker } from './lazy-parts';
 import classes from './runs.module.css';
 
 interface Props {
@@ -54,7 +55,9 @@ export function GroupChooser({ search, onChange }: Props) {
               <span>
                 {spread.name}, {statisticName(spread)}
               </span>
-              <MetricPicker action="Show this one" onPick={(text) => onChange({ spread: text })} />
+              <Suspense fallback={null}>
+                <MetricPicker action="Show this one" onPick={(text) => onChange({ spread: text })} />
+              </Suspense>
             </>
           )}
         </div>

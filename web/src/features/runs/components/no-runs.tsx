@@ -1,6 +1,7 @@
 /** What stands in place of the table when no run passes the filters. */
 import { ButtonLink } from '@/components/anchor-link';
 import { FirstSteps } from '@/components/first-steps';
+import { OnlyFor } from '@/components/only-for';
 import { OpenSample } from '@/components/open-sample';
 import { SampleStudy } from '@/components/sample-study';
 import { SentencePanel } from '@/components/sentence-panel';
@@ -40,9 +41,11 @@ export function NoRuns({ search }: { search: RunsSearch }) {
         title="Nothing has been trained yet"
         actions={
           <>
-            <ButtonLink to="/launch" size="md" variant="default">
-              Launch the first run
-            </ButtonLink>
+            <OnlyFor least="operator">
+              <ButtonLink to="/launch" size="md" variant="default">
+                Launch the first run
+              </ButtonLink>
+            </OnlyFor>
             <OpenSample />
             <SampleStudy />
           </>
@@ -54,7 +57,9 @@ export function NoRuns({ search }: { search: RunsSearch }) {
         quick start, <code>docs/quick-start.md</code>, goes through it step by step.
       </SentencePanel>
       <div className={classes.after}>
-        <FirstSteps />
+        <OnlyFor least="operator">
+          <FirstSteps />
+        </OnlyFor>
       </div>
     </>
   );

@@ -1,13 +1,10 @@
 /** Narrow the table: a field for any word, and a panel for everything else. */
-import { Button, FocusTrap, MultiSelect, NumberInput, Popover, Switch, TextInput } from '@mantine/core';
+import { Button, FocusTrap, Popover, TextInput } from '@mantine/core';
 import { useDebouncedCallback } from '@mantine/hooks';
-import { useQuery } from '@tanstack/react-query';
-import { useEffect, useState } from 'react';
+import { Suspense, useEffect, useRef, useState } from 'react';
 import { Icon } from '@/components/icon';
-import { TagField } from '@/components/tag-field';
-import { choicesQuery } from '@/lib/queries';
-import { RUN_STATES } from '@/lib/states';
-import { PHASES, type RunsFilter } from '../search';
+import type { RunsFilter } from '../search';
+import { FilterFields } from './lazy-parts';
 import classes from './runs.module.css';
 
 /** Rest after the last key before the search starts [ms]. */
@@ -20,13 +17,15 @@ interface Props {
 
 export function SearchField({ search: { search: text = '' }, onChange }: Props) {
   const [typed, setTyped] = useState(text);
-  // What was typed last is on its way into the address; anything else there came from outside.
-  const [sent, setSent] = useState(text);
+  // What was typed is on its way into the address; anything else that comes to stand there came from outside.
+  const sent = useRef<readonly string[]>([]);
   useEffect(() => {
-    if (text !== sent) setTyped(text);
-  }, [text, sent]);
+    const isOwn = sent.current.includes(text);
+    if (!isOwn || text === sent.current.at(-1)) sent.current = [];
+    if (!isOwn) setTyped(text);
+  }, [text]);
   const apply = useDebouncedCallback((next: string) => {
-    setSent(next);
+    sent.current = [...sent.current, next];
     onChange({ search: next || undefined });
   }, TYPING_REST_MS);
   return (
@@ -47,7 +46,6 @@ export function SearchField({ search: { search: text = '' }, onChange }: Props) 
 }
 
 export function FilterPanel(props: Props) {
-  const { search, onChange } = props;
   return (
     <Popover position="bottom-start" shadow="md" trapFocus>
       <Popover.Target>
@@ -58,126 +56,11 @@ export function FilterPanel(props: Props) {
       <Popover.Dropdown>
         <div className={classes.choices}>
           <FocusTrap.InitialFocus />
-          <Choices {...props} />
-          <TagField label="Has all tags" value={search.tag ?? []} onChange={(tag) => onChange({ tag: some(tag) })} />
-          <TagField
-            label="Has any of the tags"
-            value={search.any_tag ?? []}
-            onChange={(tags) => onChange({ any_tag: some(tags) })}
-          />
-          <TagField
-            label="Has none of the tags"
-            value={search.no_tag ?? []}
-            onChange={(tags) => onChange({ no_tag: some(tags) })}
-          />
-          <div className={classes.pair}>
-            <Bound label="Seed from" value={search.seed_from} onSet={(seed_from) => onChange({ seed_from })} />
-            <Bound label="Seed to" value={search.seed_to} onSet={(seed_to) => onChange({ seed_to })} />
-            <Bound
-              label="Success from"
-              unit=" %"
-              value={inPercent(search.success_from)}
-              onSet={(share) => onChange({ success_from: ofPercent(share) })}
-            />
-            <Bound
-              label="Success to"
-              unit=" %"
-              value={inPercent(search.success_to)}
-              onSet={(share) => onChange({ success_to: ofPercent(share) })}
-            />
-          </div>
-          <Switch
-            size="xs"
-            label="Deleted runs, instead of all others"
-            checked={search.deleted === 'yes'}
-            onChange={(event) => onChange({ deleted: event.currentTarget.checked ? 'yes' : undefined })}
-          />
+          <Suspense fallback={null}>
+            <FilterFields {...props} />
+          </Suspense>
         </div>
       </Popover.Dropdown>
     </Popover>
   );
-}
-
-function Choices({ search, onChange }: Props) {
-  const { data } = useQuery(choicesQuery);
-  const names = (list: readonly { name: string }[] | undefined): string[] => list?.map(({ name }) => name) ?? [];
-  return (
-    <>
-      <Several label="State" value={search.state} names={RUN_STATES} onPick={(state) => onChange({ state })} />
-      <Several label="Task" value={search.task} names={names(data?.tasks)} onPick={(task) => onChange({ task })} />
-      <Several label="Phase" value={search.phase} names={PHASES} onPick={(phase) => onChange({ phase })} />
-      <Several
-        label="Method"
-        value={search.method}
-        names={names(data?.methods)}
-        onPick={(method) => onChange({ method })}
-      />
-      <Several
-        label="Preset"
-        value={search.preset}
-        names={names(data?.presets)}
-        onPick={(preset) => onChange({ preset })}
-      />
-    </>
-  );
-}
-
-interface SeveralProps<Name extends string> {
-  label: string;
-  value: readonly Name[] | undefined;
-  names: readonly Name[];
-  onPick: (names: readonly Name[] | undefined) => void;
-}
-
-function Several<Name extends string>({ label, value = [], names, onPick }: SeveralProps<Name>) {
-  return (
-    <MultiSelect
-      size="xs"
-      label={label}
-      placeholder={value.length === 0 ? 'Any' : undefined}
-      data={[...new Set([...names, ...value])]}
-      value={[...value]}
-      onChange={(chosen) => onPick(some(chosen as Name[]))}
-      comboboxProps={{ withinPortal: false }}
-      searchable
-      clearable
-    />
-  );
-}
-
-interface BoundProps {
-  label: string;
-  unit?: string;
-  value: number | undefined;
-  onSet: (value: number | undefined) => void;
-}
-
-function Bound({ label, unit, value, onSet }: BoundProps) {
-  return (
-    <NumberInput
-      size="xs"
-      label={label}
-      placeholder="Any"
-      min={0}
-      max={unit ? 100 : 2 ** 31 - 1}
-      clampBehavior="strict"
-      allowDecimal={unit !== undefined}
-      suffix={unit}
-      value={value ?? ''}
-      onChange={(typed) => onSet(typed === '' ? undefined : Number(typed))}
-      hideControls
-    />
-  );
-}
-
-function inPercent(share: number | undefined): number | undefined {
-  return share === undefined ? undefined : Number((share * 100).toFixed(2));
-}
-
-function ofPercent(percent: number | undefined): number | undefined {
-  return percent === undefined ? undefined : percent / 100;
-}
-
-function some<T>(list: readonly T[]): readonly T[] | undefined {
-  return list.length === 0 ? undefined : list;
 }

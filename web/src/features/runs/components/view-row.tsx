@@ -4,6 +4,7 @@ import { type FormEvent, useState } from 'react';
 import type { SavedView } from '@/client/schema.gen';
 import { AnchorLink } from '@/components/anchor-link';
 import { Icon } from '@/components/icon';
+import { OnlyFor } from '@/components/only-for';
 import type { ViewWish } from '../api/views';
 import { readRunsSearch } from '../search';
 import classes from './runs.module.css';
@@ -45,17 +46,24 @@ export function ViewRow({ view, isCurrent, onChange }: Props) {
       <AnchorLink to="/" search={search} fz={13} fw={isCurrent ? 600 : undefined} aria-current={isCurrent || undefined}>
         {view.name}
       </AnchorLink>
-      <Button size="compact-xs" variant="subtle" aria-label={`Rename ${view.name}`} onClick={() => setName(view.name)}>
-        Rename
-      </Button>
-      <ActionIcon
-        size="sm"
-        variant="subtle"
-        aria-label={`Delete the view ${view.name}`}
-        onClick={() => onChange({ kind: 'delete', id: view.id })}
-      >
-        <Icon name="trash" size={14} />
-      </ActionIcon>
+      <OnlyFor least="operator">
+        <Button
+          size="compact-xs"
+          variant="subtle"
+          aria-label={`Rename ${view.name}`}
+          onClick={() => setName(view.name)}
+        >
+          Rename
+        </Button>
+        <ActionIcon
+          size="sm"
+          variant="subtle"
+          aria-label={`Delete the view ${view.name}`}
+          onClick={() => onChange({ kind: 'delete', id: view.id })}
+        >
+          <Icon name="trash" size={14} />
+        </ActionIcon>
+      </OnlyFor>
     </div>
   );
 }

@@ -3,6 +3,7 @@ import { Button, FocusTrap, Popover, TextInput } from '@mantine/core';
 import { useQuery } from '@tanstack/react-query';
 import { useRouterState } from '@tanstack/react-router';
 import { type FormEvent, useState } from 'react';
+import { OnlyFor } from '@/components/only-for';
 import { useToast } from '@/components/toasts';
 import { sentence } from '@/lib/api';
 import { useChangeViews, type ViewWish, viewsQuery } from '../api/views';
@@ -39,7 +40,9 @@ export function ViewsMenu() {
             <ViewRow key={view.id} view={view} isCurrent={view === current} onChange={change} />
           ))}
           {current === undefined && (
-            <NewView onSave={(name, onDone) => change({ kind: 'save', name, search }, onDone)} />
+            <OnlyFor least="operator">
+              <NewView onSave={(name, onDone) => change({ kind: 'save', name, search }, onDone)} />
+            </OnlyFor>
           )}
         </div>
       </Popover.Dropdown>

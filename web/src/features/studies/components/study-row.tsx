@@ -4,6 +4,7 @@ import type { StudySummary } from '@/client/schema.gen';
 import { AnchorLink } from '@/components/anchor-link';
 import { ShareBar } from '@/components/share-bar';
 import { StateCounts } from '@/components/state-counts';
+import { useMay } from '@/lib/access';
 import { formatMoment, formatPlural, formatShare } from '@/lib/format';
 import { describeAxes, leadingState } from '@/lib/studies';
 import { useStudyAction } from '@/lib/use-study-action';
@@ -11,6 +12,7 @@ import classes from './studies.module.css';
 
 export function StudyRow({ study }: { study: StudySummary }) {
   const restoring = useStudyAction();
+  const isMine = useMay('operator');
   return (
     <li className={`card ${classes.study}`} data-study={study.id}>
       <div className={classes.words}>
@@ -31,7 +33,7 @@ export function StudyRow({ study }: { study: StudySummary }) {
         <span className="faint number">
           {formatPlural(study.size, 'run')} · {formatMoment(study.created_at)}
         </span>
-        {study.deleted_at !== null && (
+        {study.deleted_at !== null && isMine && (
           <Button
             variant="default"
             size="compact-xs"

@@ -5,6 +5,7 @@ import type { StudyDetail } from '@/client/schema.gen';
 import { ButtonLink } from '@/components/anchor-link';
 import { Icon } from '@/components/icon';
 import { useToast } from '@/components/toasts';
+import { useMay } from '@/lib/access';
 import { sentence } from '@/lib/api';
 import { type StudyWish, useStudyAction } from '@/lib/use-study-action';
 import { AddDialog } from './add-dialog';
@@ -14,6 +15,7 @@ import classes from './study.module.css';
 export function StudyActions({ study }: { study: StudyDetail }) {
   const toast = useToast();
   const wishes = useStudyAction();
+  const isMine = useMay('operator');
   const [isAdding, adding] = useDisclosure(false);
   const [isEditing, editing] = useDisclosure(false);
   const send = (wish: StudyWish, undo?: () => void): void =>
@@ -26,6 +28,7 @@ export function StudyActions({ study }: { study: StudyDetail }) {
   const missing = study.cells.reduce((sum, cell) => sum + cell.missing_seeds.length, 0);
   const count = (state: 'failed' | 'cancelled'): number =>
     (study.states[state] ?? 0) + study.locomotion.filter((run) => run.state === state).length;
+  if (!isMine) return <Ways study={study} />;
   if (study.deleted_at !== null) {
     return (
       <span className={classes.actions}>
@@ -37,9 +40,7 @@ export function StudyActions({ study }: { study: StudyDetail }) {
   }
   return (
     <span className={classes.actions}>
-      <ButtonLink to="/compare" search={{ study: study.id }} size="xs" leftSection={<Icon name="chart" size={14} />}>
-        Compare
-      </ButtonLink>
+      <Ways study={study} />
       {missing > 0 && (
         <Button size="xs" variant="light" loading={wishes.isPending} onClick={() => act('fill')}>
           Fill {missing} missing
@@ -75,5 +76,26 @@ export function StudyActions({ study }: { study: StudyDetail }) {
       <AddDialog study={study} isOpen={isAdding} onClose={adding.close} onSend={send} />
       <EditDialog study={study} isOpen={isEditing} onClose={editing.close} onSend={send} />
     </span>
+  );
+}
+
+/** What everybody may do: look at its curves, and take it along. */
+function Ways({ study }: { study: StudyDetail }) {
+  return (
+    <>
+      <ButtonLink to="/compare" search={{ study: study.id }} size="xs" leftSection={<Icon name="chart" size={14} />}>
+        Compare
+      </ButtonLink>
+      <Button
+        component="a"
+        href={`/api/study-files/${study.id}`}
+        download
+        size="xs"
+        variant="default"
+        title="One file with the runs that have succeeded, for another installation"
+      >
+        Export
+      </Button>
+    </>
   );
 }

@@ -3,6 +3,7 @@ import { Button } from '@mantine/core';
 import type { ReactNode } from 'react';
 import type { RunState, Worker } from '@/client/schema.gen';
 import { AnchorLink } from '@/components/anchor-link';
+import { OnlyFor } from '@/components/only-for';
 import { useToast } from '@/components/toasts';
 import { sentence } from '@/lib/api';
 import { formatAgo, formatShare, formatSize, NOTHING, secondsBetween } from '@/lib/format';
@@ -34,7 +35,11 @@ export function WorkerCard({ worker }: { worker: Worker }) {
         </Fact>
       </dl>
       <Runs worker={worker} />
-      {worker.alive && <Drain worker={worker} />}
+      {worker.alive && (
+        <OnlyFor least="operator">
+          <Drain worker={worker} />
+        </OnlyFor>
+      )}
     </li>
   );
 }
