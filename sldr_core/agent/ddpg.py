@@ -53,8 +53,7 @@ class DdpgAgent:
         hidden = config.hidden_sizes
         self.normalizer = Normalizer(view.size).to(device)
         self.actor = Mlp((view.size, *hidden, action_size), generator, squash=True).to(device)
-        sizes = (view.size + action_size, *hidden, 1)
-        self.critics = MlpStack(len(self._streams), sizes, generator, config.layer_norm).to(device)
+        self.critics = MlpStack(len(self._streams), (view.size + action_size, *hidden, 1), generator).to(device)
         self._target_actor = deepcopy(self.actor).requires_grad_(False)
         self._target_critics = deepcopy(self.critics).requires_grad_(False)
         self._weights = torch.tensor(stream_weights, device=device)

@@ -57,8 +57,6 @@ class AgentConfig:
 
     hidden_sizes: Annotated[tuple[Positive, ...], Field(min_length=1)] = (256, 256, 256)
     """Units of the hidden layers of every network."""
-    layer_norm: bool = False
-    """Normalise the hidden layers of the critics, which then say less of actions that were never tried."""
     learning_rate: Rate = 1e-3
     """Step size of Adam for every network."""
     gamma: Rate = 0.98

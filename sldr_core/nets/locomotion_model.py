@@ -40,8 +40,7 @@ class LocomotionNets(nn.Module):
         self.view = view_of(task, "locomotion")
         self.normalizer = Normalizer(self.view.size)
         self.policy = Mlp((self.view.size, *hidden, task.object_action_size), generator, squash=True)
-        sizes = (self.view.size + task.object_action_size, *hidden, 1)
-        self.critic = MlpStack(1, sizes, generator, config.agent.layer_norm)
+        self.critic = MlpStack(1, (self.view.size + task.object_action_size, *hidden, 1), generator)
         self.transition_normalizer = Normalizer(2 * task.object_state_size)
         self.inverse = Mlp((2 * task.object_state_size, *hidden, task.object_action_size), generator)
 

@@ -45,18 +45,9 @@ class Mlp(nn.Module):
 class MlpStack(nn.Module):
     """Evaluate `S` networks of equal shape on one input, in one batched product a layer."""
 
-    def __init__(self, count: int, sizes: Sequence[int], generator: torch.Generator, layer_norm: bool = False) -> None:
-        """Make the layers.
-
-        Args:
-            count: networks.
-            sizes: units from the input to the output.
-            generator: source of the initial weights.
-            layer_norm: whether what enters each ReLU is brought to mean 0 and deviation 1 over the layer's units.
-        """
+    def __init__(self, count: int, sizes: Sequence[int], generator: torch.Generator) -> None:
         super().__init__()
         self.count = count
-        self._layer_norm = layer_norm
         self.weights = nn.ParameterList()
         self.biases = nn.ParameterList()
         for inputs, outputs in pairwise(sizes):
@@ -70,8 +61,6 @@ class MlpStack(nn.Module):
         for layer, (weight, bias) in enumerate(zip(self.weights, self.biases, strict=True)):
             stacked = torch.baddbmm(bias, stacked, weight)
             if layer < last:
-                if self._layer_norm:
-                    stacked = nn.functional.layer_norm(stacked, stacked.shape[-1:])
                 stacked = stacked.relu()
         return stacked
 
