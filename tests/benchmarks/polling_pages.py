@@ -13,7 +13,7 @@ import random
 import re
 import time
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection
 
@@ -78,6 +78,8 @@ def browsers(port: int, pages: Sequence[OpenPage]) -> Iterator[Connection]:
     here, there = context.Pipe()
     process = context.Process(target=_wait_and_poll, args=(there, port, pages), daemon=True)
     process.start()
+    # With this end open here too, one would wait for ever for browsers that have died.
+    there.close()
     try:
         yield here
     finally:
@@ -107,14 +109,13 @@ async def poll(port: int, pages: Sequence[OpenPage], seconds: float) -> Polled:
 async def _keep_asking(
     port: int, cookie: str, path: str, every_s: float, begin_s: float, until: float, polled: Polled
 ) -> None:
-    """Ask for one address again and again over one connection, as a browser keeps it open."""
+    """Ask for one address again and again."""
     await asyncio.sleep(begin_s)
-    reader, writer = await asyncio.open_connection("127.0.0.1", port)
+    line = _Line(port)
     etag, after = "", ""
     due = time.monotonic()
     while due < until:
-        writer.write(_request(port, path + after, cookie, etag))
-        status, headers, body = await _read_answer(reader)
+        status, headers, body = await line.ask(_request(port, path + after, cookie, etag))
         polled.seconds.append(time.monotonic() - due)
         polled.statuses[status] = polled.statuses.get(status, 0) + 1
         polled.received += len(body) + sum(map(len, headers.values()))
@@ -123,7 +124,36 @@ async def _keep_asking(
         etag, after = headers.get("etag", "") if moved == after else "", moved
         due = max(due + every_s, time.monotonic())
         await asyncio.sleep(max(0.0, due - time.monotonic()))
-    writer.close()
+    line.close()
+
+
+class _Line:
+    """A connection that is kept open, and opened anew if the service has closed it meanwhile, as a browser does."""
+
+    def __init__(self, port: int) -> None:
+        self._port = port
+        self._streams: tuple[asyncio.StreamReader, asyncio.StreamWriter] | None = None
+
+    async def ask(self, request: bytes) -> tuple[int, dict[str, str], bytes]:
+        """Return status, headers and body of an answer."""
+        if self._streams is not None:
+            with suppress(asyncio.IncompleteReadError, ConnectionError):
+                return await self._ask(*self._streams, request)
+            self.close()
+        self._streams = await asyncio.open_connection("127.0.0.1", self._port)
+        return await self._ask(*self._streams, request)
+
+    def close(self) -> None:
+        """Hang up."""
+        if self._streams is not None:
+            self._streams[1].close()
+            self._streams = None
+
+    async def _ask(
+        self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter, request: bytes
+    ) -> tuple[int, dict[str, str], bytes]:
+        writer.write(request)
+        return await _read_answer(reader)
 
 
 def _request(port: int, path: str, cookie: str, etag: str) -> bytes:
