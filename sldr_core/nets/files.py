@@ -27,6 +27,9 @@ _UNREADABLE = (
 )
 """What zipfile and torch.load raise on files that are cut short, damaged or foreign."""
 
+UNFIT = (AttributeError, LookupError, OverflowError, TypeError, ValueError, RuntimeError)
+"""What filling networks and counters raises if a readable file holds something else than they do."""
+
 
 def save_tensors(path: Path, content: dict[str, Any]) -> None:
     """Write a file of tensors and plain values.
@@ -53,24 +56,27 @@ def load_tensors(path: Path, *kinds: str) -> dict[str, Any]:
     if not path.is_file():
         raise BadFile(f"There is no file {path}; give the path of a {' or '.join(kinds)}.")
     try:
-        _check_sums(path)
-        content = torch.load(path, map_location="cpu", weights_only=True)
+        packed = path.read_bytes()
+        _check_sums(packed)
+        content = torch.load(io.BytesIO(packed), map_location="cpu", weights_only=True)
     except _UNREADABLE as err:
         raise BadFile(f"{path} is corrupt or no file of ours; restore it from a copy or train again.") from err
     kind = content.get("kind") if isinstance(content, dict) else None
-    if kind not in kinds:
-        raise BadFile(f"{path} holds a {kind or 'foreign object'}, but a {' or '.join(kinds)} is needed.")
+    told = kind if isinstance(kind, str) and kind else "foreign object"
+    if told not in kinds:
+        raise BadFile(f"{path} holds a {one_line(told)}, but a {' or '.join(kinds)} is needed.")
     return content
 
 
-def one_line(err: Exception) -> str:
-    """Return what an error says without its line breaks."""
+def one_line(err: Exception | str) -> str:
+    """Return what is said, by an error for one, without its line breaks."""
     return " ".join(str(err).split())
 
 
-def _check_sums(path: Path) -> None:
+def _check_sums(packed: bytes) -> None:
     """Read the whole archive: torch.load itself takes damaged weights for good ones."""
-    with ZipFile(path) as archive:
+    # From memory, where a damaged offset is a ValueError; on a disk it would be an OSError, as if the disk failed.
+    with ZipFile(io.BytesIO(packed)) as archive:
         damaged = archive.testzip()
     if damaged is not None:
         raise BadZipFile(f"{damaged} is damaged")

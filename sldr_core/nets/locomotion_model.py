@@ -12,7 +12,7 @@ from torch import Tensor, nn
 
 from sldr_core.config import TrainConfig, config_from_dict, config_hash, config_to_dict
 from sldr_core.errors import BadFile, InvalidConfig
-from sldr_core.nets.files import load_tensors, one_line, save_tensors
+from sldr_core.nets.files import UNFIT, load_tensors, one_line, save_tensors
 from sldr_core.nets.mlp import Mlp, MlpStack
 from sldr_core.nets.normalizer import Normalizer
 from sldr_core.nets.views import transition_features, view_of
@@ -99,7 +99,7 @@ def load_locomotion_model(path: Path) -> LocomotionModel:
         nets = LocomotionNets(config, torch.Generator())
         nets.load_state_dict(content["nets"])
         measured = Measured(float(content["success_rate"]), int(content["test_episodes"]))
-    except (AttributeError, KeyError, TypeError, ValueError, RuntimeError, InvalidConfig) as err:
+    except (*UNFIT, InvalidConfig) as err:
         raise BadFile(f"{path} is no usable locomotion model ({one_line(err)}); train it again.") from err
     nets.requires_grad_(False).eval()
     return LocomotionModel(nets, config, measured)

@@ -16,7 +16,7 @@ from sldr_core.config import TrainConfig, config_from_dict, config_hash, config_
 from sldr_core.disk import write_atomically
 from sldr_core.envs import Envs
 from sldr_core.errors import BadFile, InvalidConfig
-from sldr_core.nets.files import load_tensors, one_line, save_tensors
+from sldr_core.nets.files import UNFIT, load_tensors, one_line, save_tensors
 from sldr_core.training.build import Parts
 from sldr_core.training.files import (
     CHECKPOINT_FILE,
@@ -148,8 +148,8 @@ def read_checkpoint(path: Path, config: TrainConfig) -> dict[str, Any]:
     missing = sorted(PARTS - content.keys())
     if missing:
         raise BadFile(f"{path} is no whole checkpoint: it lacks {', '.join(missing)}; {START_ANEW}.")
-    replay = path.with_name(REPLAY_FILE)
-    if not replay.is_file() or replay.stat().st_size != content["replay_bytes"]:
+    replay, size = path.with_name(REPLAY_FILE), content["replay_bytes"]
+    if not isinstance(size, int) or not replay.is_file() or replay.stat().st_size != size:
         raise BadFile(f"{path} needs {replay}, which is gone or was cut short; {START_ANEW}.")
     return content
 
@@ -174,7 +174,7 @@ def restore_training(kept: Kept, parts: Parts) -> Counters:
         parts.buffer.written = int(content["replay_written"])
         counters = {**COUNTED_LATER, **content["counters"]}
         return Counters(**{field.name: counters[field.name] for field in fields(Counters)})
-    except (AttributeError, KeyError, TypeError, ValueError, RuntimeError) as err:
+    except UNFIT as err:
         raise BadFile(f"{kept.path} is no whole checkpoint ({one_line(err)}); {START_ANEW}.") from err
 
 

@@ -11,7 +11,7 @@ import torch
 
 from sldr_core.config import TrainConfig, config_from_dict, config_to_dict
 from sldr_core.errors import BadFile, InvalidConfig
-from sldr_core.nets.files import load_tensors, one_line, save_tensors
+from sldr_core.nets.files import UNFIT, load_tensors, one_line, save_tensors
 from sldr_core.nets.locomotion_model import KIND as LOCOMOTION_KIND
 from sldr_core.nets.mlp import Mlp
 from sldr_core.nets.normalizer import Normalizer
@@ -80,7 +80,7 @@ def load_policy(path: Path, device: str = "cpu") -> Policy:
         normalizer.load_state_dict(normalizer_state)
         actor = Mlp((view.size, *config.agent.hidden_sizes, actions), torch.Generator(), squash=True)
         actor.load_state_dict(actor_state)
-    except (AttributeError, KeyError, TypeError, ValueError, RuntimeError, InvalidConfig) as err:
+    except (*UNFIT, InvalidConfig) as err:
         raise BadFile(f"{path} holds no usable policy ({one_line(err)}).") from err
     return Policy(config, content.get("epoch"), content.get("success_rate"), normalizer.to(device), actor.to(device))
 

@@ -22,7 +22,7 @@ from sldr_core.training.build import Parts
 from sldr_core.training.checkpoint import Kept, read_checkpoint, restore_training
 from sldr_core.training.policy import load_policy
 
-TRIALS = 60
+TRIALS = 40
 
 trials = settings(
     max_examples=TRIALS,

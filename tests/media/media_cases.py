@@ -24,7 +24,7 @@ from sldr_core.training.checkpoint import Counters
 from sldr_core.training.policy import write_policy
 from worker.media.host import MediaHost
 
-PATIENCE_S = 60.0
+PATIENCE_S = 180.0
 """Long, because the machine that runs the tests may be busy with others."""
 STEPS = 6
 """Steps of the recorded episode."""

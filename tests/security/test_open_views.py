@@ -11,6 +11,7 @@ from guarded_api import Guarded
 from live_api import Service
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
+from websockets.sync.connection import Connection
 from websockets.sync.server import ServerConnection, serve
 from websockets.typing import Origin
 
@@ -63,13 +64,13 @@ def cookies_of(browser: httpx.Client) -> dict[str, str]:
     return {"Cookie": "; ".join(f"{name}={value}" for name, value in browser.cookies.items())}
 
 
-def goes_on(view: ClientConnection) -> bool:
+def goes_on(view: Connection) -> bool:
     """Tell whether messages still pass."""
     view.send("still there?")
     return view.recv(timeout=CUT_WITHIN_S) == "still there?"
 
 
-def assert_cut_off(view: ClientConnection) -> None:
+def assert_cut_off(view: Connection) -> None:
     """Wait until the server has closed a view."""
     with pytest.raises(ConnectionClosed):
         view.recv(timeout=CUT_WITHIN_S)
