@@ -63,7 +63,7 @@ PRESETS: dict[str, Preset] = {
             summary="Reach a learnt policy while you watch: small nets, and updates where something moved.",
             manipulation={
                 "loop": {
-                    "epochs": 20,
+                    "epochs": 15,
                     "cycles_per_epoch": 15,
                     "collecting": "beside",
                     "warmup_cycles": 45,

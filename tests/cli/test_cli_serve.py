@@ -158,4 +158,4 @@ def test_the_service_starts_heals_and_ends_as_one(tmp_path: Path, free_port: int
         serving.terminate()
         assert serving.wait(PATIENCE_S) == 0
         watchdog.cancel()
-    wait_for(lambda: not any(is_running(process.pid) for process in family), patience_s=20)
+    wait_for(lambda: not any(is_running(process.pid) for process in family))
