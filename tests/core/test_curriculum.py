@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from plain_rewards import never_met, no_reward
 from small_training import collected_parts, tiny_config
 
 from sldr_core.config import CurriculumConfig, ReplayConfig
@@ -23,14 +24,6 @@ CONFIG = CurriculumConfig(group_size=40, candidates=20, kept=9, examined=3, near
 UPDATES_PER_EPOCH = 5
 SIGMAS = 5.0
 """A count may be off by so many standard deviations; the draws are seeded."""
-
-
-def no_reward(achieved: Floats, goal: Floats) -> Floats:
-    return np.zeros(len(goal), np.float32)
-
-
-def never_met(achieved: Floats, goal: Floats) -> np.ndarray:
-    return np.zeros(len(goal), np.bool_)
 
 
 def euclidean(goals: Floats, others: Floats) -> np.ndarray:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from plain_rewards import never_met
 
 from sldr_core.config import ReplayConfig
 from sldr_core.records import Episodes, Floats
@@ -25,10 +26,6 @@ ORIGINAL = 1000.0
 
 def reward_telling_its_input(achieved: Floats, goal: Floats) -> Floats:
     return achieved[:, 0] * 10_000 + goal[:, 0]
-
-
-def never_met(achieved: Floats, goal: Floats) -> np.ndarray:
-    return np.zeros(len(goal), np.bool_)
 
 
 @pytest.fixture

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from plain_rewards import no_reward
 
 from sldr_core.config import ReplayConfig
 from sldr_core.records import Episodes, Floats
@@ -25,10 +26,6 @@ SIGMAS = 5.0
 
 def same(achieved: Floats, goal: Floats) -> np.ndarray:
     return (achieved == goal).all(axis=-1)
-
-
-def no_reward(achieved: Floats, goal: Floats) -> Floats:
-    return np.zeros(len(goal), np.float32)
 
 
 def buffer_of(tmp_path: Path, achieved: np.ndarray) -> ReplayBuffer:

@@ -6,9 +6,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from plain_rewards import never_met, no_reward
 
 from sldr_core.config import ReplayConfig
-from sldr_core.records import Episodes, Floats
+from sldr_core.records import Episodes
 from sldr_core.replay import HindsightSampler, ReplayBuffer
 from sldr_core.replay.buffer import has_moved
 
@@ -36,12 +37,6 @@ def buffer(tmp_path: Path) -> ReplayBuffer:
 
 
 def weighted_sampler(buffer: ReplayBuffer, config: ReplayConfig) -> HindsightSampler:
-    def no_reward(achieved: Floats, goal: Floats) -> Floats:
-        return np.zeros(len(goal), np.float32)
-
-    def never_met(achieved: Floats, goal: Floats) -> np.ndarray:
-        return np.zeros(len(goal), np.bool_)
-
     return HindsightSampler(buffer, no_reward, never_met, config, np.random.default_rng(0))
 
 
