@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +25,9 @@ from sldr_core.replay import ReplayBuffer, Sampler, SamplerOrder, build_curricul
 from sldr_core.streams import Stream, StreamOrder, TaskStream, build_rnd, build_sldr
 from sldr_core.training.compute import Compute, resolve_compute
 from sldr_core.training.files import REPLAY_FILE, planned_sizes
+from sldr_core.training.graphs import GraphedUpdates
 from sldr_core.training.rollout import Exploration
+from sldr_core.training.updates import Learners, MakeUpdate, update_on
 
 AUXILIARY: dict[Auxiliary, Callable[[StreamOrder], Sequence[Stream]]] = {"sldr": build_sldr, "rnd": build_rnd}
 """How the streams that a method names are put together."""
@@ -54,6 +57,8 @@ class Parts:
     inverse: InverseLearner | None
     """Learnt beside the object's policy in locomotion."""
     streams: tuple[Stream, ...]
+    make_update: MakeUpdate
+    """Make one update of agent, inverse model and streams."""
 
     def learner_states(self) -> dict[str, Any]:
         """Return the states of everything that learns, by name."""
@@ -99,8 +104,8 @@ def build_training(
     )
     locomotion = config.phase == "locomotion"
     inverse = InverseLearner(envs.obs_size, envs.action_size, config.agent, weights, compute.device, compute.autocast)
-    learners = (agent, *([inverse] if locomotion else []), *streams)
-    buffer = _make_buffer(config, directory, envs, streams, [part.state_dict() for part in learners])
+    learners = Learners(agent, inverse if locomotion else None, streams)
+    buffer = _make_buffer(config, directory, envs, streams, list(learners.state_dicts()))
     rng = np.random.default_rng(sampling_seed)
     return Parts(
         config=config,
@@ -113,9 +118,14 @@ def build_training(
         ),
         exploration=Exploration(config.exploration, np.random.default_rng(exploration_seed)),
         agent=agent,
-        inverse=inverse if locomotion else None,
+        inverse=learners.inverse,
         streams=streams,
+        make_update=_update_maker(learners, compute.device),
     )
+
+
+def _update_maker(learners: Learners, device: torch.device) -> MakeUpdate:
+    return GraphedUpdates(learners, device) if device.type == "cuda" else partial(update_on, learners, device)
 
 
 def _make_buffer(

@@ -1,25 +1,19 @@
-"""One cycle of training, to be read aloud: collect, store, draw and relabel, reward, update, sync."""
+"""One cycle of training, to be read aloud: collect and store, then draw and relabel, and update."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from threading import Event
 
 import torch
-from torch import Tensor
 
-from sldr_core.nets.transitions import Transitions
-from sldr_core.replay import Sample
 from sldr_core.training.build import Parts
 from sldr_core.training.finite import check_update
 from sldr_core.training.gathering import Gathered
 from sldr_core.training.rollout import Act, Check, Collected, collect_episodes, numpy_policy
-
-LOWEST_REWARD, HIGHEST_REWARD = -1.0, 0.0
-"""The limits of rewards for which targets are clipped; a stream that is bounded is bounded by them."""
 
 
 @dataclass(frozen=True)
@@ -93,18 +87,10 @@ def learn(parts: Parts, updates_before: int, check: Check) -> dict[str, float]:
     gathered = Gathered()
     started = time.monotonic()
     for update in range(updates_before + 1, updates_before + loop.updates_per_cycle + 1):
-        batch = on_device(parts.sampler.sample(loop.batch_size, update - 1), parts.compute.device)
-        rewards = {stream.name: stream.reward(batch) for stream in parts.streams}
-        metrics = _reward_metrics(rewards)
-        metrics.update(parts.agent.update(batch, torch.stack(list(rewards.values()))))
-        if parts.inverse is not None:
-            metrics.update(parts.inverse.update(batch))
-        for stream in parts.streams:
-            metrics.update(stream.learn(batch))
-        if update % loop.updates_per_sync == 0:
-            parts.agent.sync_targets()
-        check_update(metrics, batch, rewards, parts.learner_states)
-        gathered.add(metrics)
+        sample = parts.sampler.sample(loop.batch_size, update - 1)
+        made = parts.make_update(sample, update % loop.updates_per_sync == 0)
+        check_update(made.metrics, made.batch, made.rewards, parts.learner_states)
+        gathered.add(made.metrics)
         check()
     metrics = gathered.close()
     return {**metrics, "speed/updates_per_s": loop.updates_per_cycle / (time.monotonic() - started)}
@@ -136,23 +122,3 @@ def store(parts: Parts, collected: Collected) -> dict[str, float]:
 
 class _Abandoned(Exception):
     """The updates beside which episodes are collected have failed, or are not wanted any more."""
-
-
-def _reward_metrics(rewards: Mapping[str, Tensor]) -> dict[str, Tensor]:
-    """Return scalars by metric name, of rewards `[B]` by the name of their stream."""
-    metrics: dict[str, Tensor] = {}
-    for name, reward in rewards.items():
-        metrics[f"stream/{name}/mean"] = reward.mean()
-        metrics[f"stream/{name}/clip_low_share"] = (reward <= LOWEST_REWARD).float().mean()
-        metrics[f"stream/{name}/clip_high_share"] = (reward >= HIGHEST_REWARD).float().mean()
-    return metrics
-
-
-def on_device(sample: Sample, device: torch.device) -> Transitions:
-    """Return a sample as tensors."""
-    tensors = {
-        name: torch.from_numpy(getattr(sample, name)).to(device)
-        for name in ("obs", "next_obs", "goal", "action", "reward")
-    }
-    extra = {name: torch.from_numpy(values).to(device) for name, values in sample.extra.items()}
-    return Transitions(**tensors, extra=extra)

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 import torch
 from torch import Tensor
 
-EXTREMES: dict[str, Callable[[Tensor, Tensor], Tensor]] = {"_min": torch.minimum, "_max": torch.maximum}
+EXTREMES: dict[str, Callable[[Tensor], Tensor]] = {"_min": torch.amin, "_max": torch.amax}
 """Metrics whose name ends so are the least or the greatest of all updates; of the others the mean is told."""
 
 
@@ -15,19 +15,18 @@ class Gathered:
     """Take the metrics of one update after the other; they stay on their device until the end."""
 
     def __init__(self) -> None:
-        self._updates = 0
-        self._values: dict[str, Tensor] = {}
+        self._names: tuple[str, ...] = ()
+        self._updates: list[Tensor] = []
 
     def add(self, metrics: Mapping[str, Tensor]) -> None:
-        """Take the scalars of an update."""
-        self._updates += 1
-        for name, value in metrics.items():
-            so_far = self._values.get(name)
-            self._values[name] = value if so_far is None else EXTREMES.get(name[-4:], torch.add)(so_far, value)
+        """Take the scalars of an update, of the same names each time."""
+        self._names = tuple(metrics)
+        self._updates.append(torch.stack([value.float() for value in metrics.values()]))
 
     def close(self) -> dict[str, float]:
         """Return one number for each metric."""
+        columns = torch.stack(self._updates).cpu().unbind(dim=1)
         return {
-            name: float(value) if name[-4:] in EXTREMES else float(value) / self._updates
-            for name, value in self._values.items()
+            name: float(EXTREMES.get(name[-4:], torch.mean)(column))
+            for name, column in zip(self._names, columns, strict=True)
         }

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from contextlib import nullcontext
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
+from typing import Any
 
 import pytest
 import torch
@@ -21,6 +23,8 @@ from sldr_core.streams import Stream, StreamOrder, TaskStream, build_rnd, build_
 from sldr_core.training import evaluate, load_policy, train
 from sldr_core.training.build import build_training
 from sldr_core.training.cycle import collect_random, learn
+from sldr_core.training.graphs import EAGER_UPDATES
+from sldr_core.training.updates import Learners, update_on
 
 needs_gpu = pytest.mark.skipif(not torch.cuda.is_available(), reason="torch finds no GPU on this machine")
 
@@ -67,6 +71,30 @@ def test_a_gpu_learns_what_a_processor_learns(phase: Phase, method: str, tmp_pat
         assert next(parts.agent.actor.parameters()).device.type == device
 
     assert learnt[1] == pytest.approx(learnt[0], rel=1e-3, abs=1e-4)
+
+
+@needs_gpu
+@every_training
+def test_a_replayed_update_is_the_one_made_operation_by_operation(
+    phase: Phase, method: str, tmp_path: Path, model: Path
+) -> None:
+    config = config_on("cuda", phase, method)
+    told: list[dict[str, float]] = []
+    states: list[dict[str, Any]] = []
+    for name in ("replayed", "by operation"):
+        (tmp_path / name).mkdir()
+        parts = build_training(config, tmp_path / name, (model,))
+        make = parts.make_update
+        if name == "by operation":
+            make = partial(update_on, Learners(parts.agent, parts.inverse, parts.streams), parts.compute.device)
+        collect_random(parts, lambda: None)
+        # Both kinds of updates, those that move the targets and those that do not, are captured and replayed.
+        updates = [make(parts.sampler.sample(16, number), number % 2 == 0) for number in range(4 * EAGER_UPDATES)]
+        told.append({metric: float(value) for metric, value in updates[-1].metrics.items()})
+        states.append(parts.learner_states())
+
+    assert told[0] == told[1]
+    torch.testing.assert_close(states[0], states[1], rtol=0.0, atol=0.0)
 
 
 @needs_gpu

@@ -31,12 +31,13 @@ from sldr_core.replay.sampling import Draw, read_sample
 from sldr_core.training import train
 from sldr_core.training.build import Parts
 from sldr_core.training.checkpoint import KIND as CHECKPOINT_KIND
-from sldr_core.training.cycle import learn, on_device
+from sldr_core.training.cycle import learn
 from sldr_core.training.files import CHECKPOINT_FILE
 from sldr_core.training.recording import EpisodeRecording
 from sldr_core.training.resimulation import first_differences, make_resimulation
 from sldr_core.training.rollout import numpy_policy
 from sldr_core.training.testing import run_test
+from sldr_core.training.updates import on_device
 from sldr_core.training.witness import Witness
 
 KEPT = 3
