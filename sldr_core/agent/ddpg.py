@@ -71,12 +71,14 @@ class DdpgAgent:
         return self.actor(self.features(obs.to(self._device), goal.to(self._device))).cpu()
 
     def frozen_policy(self) -> Callable[[Tensor, Tensor], Tensor]:
-        """Return what `act` does now; it goes on doing that while this agent learns."""
-        normalizer, actor = deepcopy(self.normalizer), deepcopy(self.actor).requires_grad_(False)
+        """Return what `act` does now; it goes on doing that while this agent learns.
+
+        It acts on the processor: on a GPU each step would wait for the updates that are made meanwhile.
+        """
+        normalizer, actor = deepcopy(self.normalizer).cpu(), deepcopy(self.actor).cpu().requires_grad_(False)
 
         def act(obs: Tensor, goal: Tensor) -> Tensor:
-            seen = self._view.features(obs.to(self._device), goal.to(self._device))
-            return actor(normalizer(seen)).cpu()
+            return actor(normalizer(self._view.features(obs, goal)))
 
         return act
 

@@ -28,13 +28,20 @@ class GraphedUpdates:
         self._learners = learners
         self._device = device
         self._aside = torch.cuda.Stream(device)
+        # Waiting for one of this kind leaves the core to the simulations; any other way of waiting keeps it busy.
+        self._done = torch.cuda.Event(blocking=True)
         self._eager_left = EAGER_UPDATES
         self._batch: Transitions | None = None
         self._captured: dict[bool, tuple[torch.cuda.CUDAGraph, Update]] = {}
 
     def __call__(self, sample: Sample, sync: bool) -> Update:
-        """Learn from the sample, and move the targets afterwards if `sync`."""
-        batch = self._place(sample)
+        """Learn from the sample, and move the targets afterwards if `sync`; return when that is done."""
+        update = self._make(self._place(sample), sync)
+        self._done.record()
+        self._done.synchronize()
+        return update
+
+    def _make(self, batch: Transitions, sync: bool) -> Update:
         if self._eager_left:
             self._eager_left -= 1
             return self._update_aside(batch, sync)
@@ -49,9 +56,8 @@ class GraphedUpdates:
         if self._batch is None:
             self._batch = on_device(sample, self._device)
         else:
-            for place, values in zip(
-                _tensors(self._batch), _tensors(on_device(sample, torch.device("cpu"))), strict=True
-            ):
+            here = on_device(sample, torch.device("cpu"))
+            for place, values in zip(_tensors(self._batch), _tensors(here), strict=True):
                 place.copy_(values)
         return self._batch
 
