@@ -11,6 +11,7 @@ from pathlib import Path
 
 from bench_clients import measure_clients
 from bench_epoch import measure_epoch
+from bench_gpu import measure_gpu
 from bench_learner import measure_learner
 from bench_metrics import measure_metrics
 from bench_quality import measure_quality
@@ -26,6 +27,7 @@ GROUPS: dict[str, Callable[[], Iterator[Measured]]] = {
     "locomotion-scenes": measure_locomotion_scenes,
     "learner": measure_learner,
     "epoch": measure_epoch,
+    "gpu": measure_gpu,
     "metrics": measure_metrics,
     "queries": measure_queries,
     "service": measure_service,
