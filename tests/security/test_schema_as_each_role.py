@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 import schemathesis
 from guarded_api import Guarded, guarded
-from hypothesis import HealthCheck, Phase, settings
+from hypothesis import HealthCheck, Phase, seed, settings
 from schemathesis.checks import (
     content_type_conformance,
     negative_data_rejection,
@@ -39,7 +39,9 @@ EXAMPLES = int(os.environ.get("SLDR_FUZZ_EXAMPLES", "2"))
 """Requests made up for each operation; each is sent as nobody and as every role."""
 
 WALKS = max(1, EXAMPLES // 3)
-"""Chains of requests made up for each role, in which a later one uses what an earlier one made."""
+"""Pairs of chains of requests made up for each role, in which a later one uses what an earlier one made. Only so many
+are drawn from one seed: an answer is not the same twice, so a chain that began like an earlier one would go on
+differently, which hypothesis takes for a mistake."""
 
 STEPS = 12
 """Requests of a chain at most."""
@@ -48,6 +50,8 @@ NOBODY = "nobody"
 
 NOWHERE = Path("/nonexistent")
 """The schema does not depend on where the data lies."""
+
+schemathesis.serializer.alias("application/zip", "application/octet-stream")
 
 described = schemathesis.openapi.from_dict(
     create_app(Settings(home=NOWHERE, database_url=sqlite_url(NOWHERE)), NOWHERE).openapi()
@@ -93,14 +97,14 @@ def test_chains_of_requests_are_answered_as_the_schema_says(api: Guarded, role: 
         def validate_response(self, response: Any, case: schemathesis.Case, **kwargs: Any) -> None:
             case.validate_response(response, checks=CHECKS)
 
-    Walk.run(
-        settings=settings(
-            max_examples=WALKS,
-            stateful_step_count=STEPS,
-            deadline=None,
-            database=None,
-            derandomize=True,
-            phases=[Phase.generate],
-            suppress_health_check=HEALTH_CHECKS,
+    for number in range(WALKS):
+        seed(number)(Walk).run(
+            settings=settings(
+                max_examples=2,
+                stateful_step_count=STEPS,
+                deadline=None,
+                database=None,
+                phases=[Phase.generate],
+                suppress_health_check=HEALTH_CHECKS,
+            )
         )
-    )
