@@ -44,12 +44,16 @@ def leave_to_draw(home: Path, task: str) -> None:
         Image.new("RGB", (1, 1)).save(pictures / f"{other}.png")
 
 
+FEW_PIXELS = {"device_scale_factor": 0.5}
+"""Let pages be laid out in their usual size and drawn in half of it: in software each pixel of a scene costs."""
+
+
 @pytest.fixture
 def new_context(new_context: Callable[..., BrowserContext]) -> Callable[..., BrowserContext]:
     """Return a way to get browsers that spare the processor."""
 
     def make(**options: Any) -> BrowserContext:
-        context = new_context(**options)
+        context = new_context(**FEW_PIXELS, **options)
         context.add_init_script(FEW_FRAMES)
         return context
 
