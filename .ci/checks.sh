@@ -4,6 +4,9 @@
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
+# Some machines ask Python to keep no compiled code; hundreds of processes would then compile all modules anew.
+unset PYTHONDONTWRITEBYTECODE
+
 every=(lint format imports types client web-check web-test pytest)
 wanted=("$@")
 [[ ${1:-all} != all ]] || wanted=("${every[@]}" "${@:2}")
