@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import json
+import platform
 from pathlib import Path
+from typing import Any
 
 import pytest
+from sqlalchemy import select, update
 from store_engines import ENGINES
 from study_file_cases import EPOCH, SPEC, changed, everything_below, members_of, trained_study
 
@@ -26,6 +30,8 @@ from backend.store.studies.matrix import StudyMatrix, get_study, list_studies
 from backend.store.studies.spec import Addition
 from backend.store.study_files.packing import pack_study
 from backend.store.study_files.placing import import_study
+from backend.store.tables import attempts
+from backend.store.workers import Machine, register_worker
 
 pytestmark = pytest.mark.parametrize("engine", ENGINES, scope="module")
 
@@ -104,6 +110,38 @@ def test_what_was_imported_can_be_exported_again(
     curves = [content for name, content in members_of(exported).items() if name.startswith("metrics/")]
     again = [content for name, content in members_of(tmp_path / "again.zip").items() if name.startswith("metrics/")]
     assert sorted(again) == sorted(curves)
+
+
+def test_each_run_tells_what_trained_it_and_names_nobody(
+    db: Database, settings: Settings, exported: Path, tmp_path: Path
+) -> None:
+    imported = import_study(db, settings, exported, "It")
+    trained, other = (run.run_id for run in get_study(db, imported.study_id).cells[0].runs)
+    worker_id = register_worker(db, "a-name", 1, 1, Machine(cores=16, gpu="NVIDIA H200"))
+    with db.write() as conn:
+        conn.execute(update(attempts).where(attempts.c.run_id == trained).values(worker_id=worker_id, host="a-name"))
+
+    pack_study(db, settings, imported.study_id, tmp_path / "again.zip")
+
+    listed = members_of(tmp_path / "again.zip")["study.json"].decode()
+    told = {run["key"]: run["machine"] for run in json.loads(listed)["runs"]}
+    assert told[trained] == f"{platform.machine()}, 16 cores, NVIDIA H200"
+    assert told[other] == ""
+    assert "a-name" not in listed
+
+
+def test_what_trained_a_run_is_known_where_it_was_imported(
+    db: Database, settings: Settings, exported: Path, tmp_path: Path
+) -> None:
+    def name_the_first(listed: dict[str, Any]) -> None:
+        listed["runs"][0]["machine"] = "x86_64, 1 core, no GPU"
+
+    imported = import_study(db, settings, changed(exported, tmp_path / "known.zip", name_the_first), "It")
+
+    with db.read() as conn:
+        hosts = [row.host for row in conn.execute(select(attempts))]
+    assert imported.runs == len(hosts) == 5
+    assert hosts.count("x86_64, 1 core, no GPU") == 1
 
 
 def test_a_study_of_which_nothing_has_succeeded_is_not_packed(db: Database, settings: Settings, tmp_path: Path) -> None:

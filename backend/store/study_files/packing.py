@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import platform
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
@@ -24,6 +23,7 @@ from backend.store.settings import Settings
 from backend.store.states import RunState
 from backend.store.storage import FileStorage
 from backend.store.studies.launch import find_study
+from backend.store.study_files.machines import count_machines, find_machines
 from backend.store.study_files.records import (
     FORMAT,
     STUDY_MEMBER,
@@ -42,7 +42,15 @@ from backend.store.study_files.records import (
     file_member,
     metrics_member,
 )
-from backend.store.tables import AnyRow, attempts, episodes, run_events, run_needs, run_progress, runs, study_runs
+from backend.store.tables import (
+    AnyRow,
+    episodes,
+    run_events,
+    run_needs,
+    run_progress,
+    runs,
+    study_runs,
+)
 from sldr_core.disk import write_atomically
 from sldr_core.episodes import epoch_of
 
@@ -74,7 +82,10 @@ class Members:
     robots: Sequence[AnyRow]
     needs: Mapping[str, Sequence[str]]
     """Ids of the locomotion runs that a run has learnt from."""
+    trained_on: Mapping[str, str]
+    """The machine of a run's last attempt, in a few words that name nobody."""
     machine: str
+    """All that trained, in the same way."""
 
 
 def pack_study(db: Database, settings: Settings, study_id: str, out: Path) -> Packed:
@@ -119,13 +130,14 @@ def _find_members(db: Database, study_id: str) -> Members:
         robots = _succeeded(conn, places)
         pairs = conn.execute(select(run_needs).where(run_needs.c.run_id.in_([row.id for row in robots]))).all()
         objects = _succeeded(conn, {pair.needs_run_id for pair in pairs})
-        hosts = conn.execute(select(attempts.c.host).where(attempts.c.run_id.in_([*places]))).scalars().all()
+        machine = count_machines(conn, list(places))
+        trained_on = find_machines(conn, [row.id for row in (*objects, *robots)])
     there = {row.id for row in objects}
     needs = {
         row.id: [pair.needs_run_id for pair in pairs if pair.run_id == row.id and pair.needs_run_id in there]
         for row in robots
     }
-    return Members(study, places, objects, robots, needs, _machine(hosts))
+    return Members(study, places, objects, robots, needs, trained_on, machine)
 
 
 def _succeeded(conn: Connection, ids: Collection[str]) -> Sequence[AnyRow]:
@@ -164,6 +176,7 @@ def _pack_run(db: Database, storage: FileStorage, archive: ZipFile, row: AnyRow,
         started_at=row.started_at,
         ended_at=row.ended_at,
         needs=list(members.needs.get(row.id, ())),
+        machine=members.trained_on.get(row.id, ""),
         place=members.places.get(row.id),
         progress=None if progress is None else ProgressRecord(**_fields(ProgressRecord, progress)),
         events=events,
@@ -222,9 +235,3 @@ def _kind(name: str) -> Any:
 
 def _fields(record: type[EpisodeRecord | EventRecord | ProgressRecord], row: Any) -> dict[str, Any]:
     return {name: row[name] for name in record.model_fields}
-
-
-def _machine(hosts: Sequence[str | None]) -> str:
-    """Return what trained, in a few words that name nobody."""
-    count = len(set(hosts))
-    return f"{platform.machine()}, {count or 1} machine{'s' if count > 1 else ''}"

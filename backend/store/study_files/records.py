@@ -130,6 +130,8 @@ class RunRecord(Strict):
     started_at: Time | None
     ended_at: Time | None
     needs: Annotated[list[Key], Field(max_length=8)]
+    machine: Annotated[str, Field(max_length=200, pattern=r"^[^\x00-\x1f]*$")] = ""
+    """What trained it, if that is known."""
     place: Place | None
     progress: ProgressRecord | None
     events: Annotated[list[EventRecord], Field(max_length=MOST_EVENTS)]

@@ -158,7 +158,7 @@ def _attempt_row(rows: StudyRows, run: RunRecord) -> dict[str, Any]:
         "attempt": ATTEMPT,
         "fence": 0,
         "worker_id": ELSEWHERE,
-        "host": rows.content.machine,
+        "host": run.machine or rows.content.machine,
         "started_at": run.started_at or run.created_at,
         "ended_at": run.ended_at,
         "outcome": "succeeded",

@@ -1,0 +1,32 @@
+"""What trained the runs of a study, in a few words that name nobody."""
+
+from __future__ import annotations
+
+import platform
+from collections.abc import Sequence
+
+from sqlalchemy import Connection, select
+
+from backend.store.tables import attempts, workers
+
+
+def count_machines(conn: Connection, run_ids: Sequence[str]) -> str:
+    """Return what all attempts of some runs were trained on."""
+    hosts = conn.execute(select(attempts.c.host).where(attempts.c.run_id.in_(run_ids)).distinct()).scalars().all()
+    count = max(1, len(hosts))
+    return f"{platform.machine()}, {count} machine{'s' if count > 1 else ''}"
+
+
+def find_machines(conn: Connection, run_ids: Sequence[str]) -> dict[str, str]:
+    """Return what the last attempt of each run was trained on, for those whose worker has said."""
+    found = conn.execute(
+        select(attempts.c.run_id, workers.c.cores, workers.c.gpu)
+        .join(workers, workers.c.id == attempts.c.worker_id)
+        .where(attempts.c.run_id.in_(run_ids), workers.c.cores > 0)
+        .order_by(attempts.c.attempt)
+    )
+    return {row.run_id: _in_words(row.cores, row.gpu) for row in found}
+
+
+def _in_words(cores: int, gpu: str | None) -> str:
+    return f"{platform.machine()}, {cores} core{'s' if cores > 1 else ''}, {gpu or 'no GPU'}"
