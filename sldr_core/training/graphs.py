@@ -1,5 +1,7 @@
-"""Updates on a GPU as captured graphs: an update is hundreds of small operations, and starting each takes longer than
-doing it. Captured once, they are started together.
+"""Updates on a GPU, captured once as a graph and replayed.
+
+An update is hundreds of small operations, and starting each takes longer than doing it; those of a graph are started
+together.
 """
 
 from __future__ import annotations
