@@ -53,18 +53,28 @@ class Parts:
     buffer: ReplayBuffer
     sampler: Sampler
     exploration: Exploration
-    agent: DdpgAgent
-    inverse: InverseLearner | None
-    """Learnt beside the object's policy in locomotion."""
-    streams: tuple[Stream, ...]
+    learners: Learners
     make_update: MakeUpdate
-    """Make one update of agent, inverse model and streams."""
+    """Make one update of everything that learns."""
+
+    @property
+    def agent(self) -> DdpgAgent:
+        """Who acts and learns."""
+        return self.learners.agent
+
+    @property
+    def inverse(self) -> InverseLearner | None:
+        """What is learnt beside the object's policy in locomotion."""
+        return self.learners.inverse
+
+    @property
+    def streams(self) -> tuple[Stream, ...]:
+        """The reward streams; the task's comes first."""
+        return self.learners.streams
 
     def learner_states(self) -> dict[str, Any]:
         """Return the states of everything that learns, by name."""
-        inverse = {} if self.inverse is None else {"inverse": self.inverse.state_dict()}
-        streams = {f"stream {stream.name}": stream.state_dict() for stream in self.streams}
-        return {"agent": self.agent.state_dict(), **inverse, **streams}
+        return self.learners.states()
 
 
 def build_training(
@@ -105,7 +115,7 @@ def build_training(
     locomotion = config.phase == "locomotion"
     inverse = InverseLearner(envs.obs_size, envs.action_size, config.agent, weights, compute.device, compute.autocast)
     learners = Learners(agent, inverse if locomotion else None, streams)
-    buffer = _make_buffer(config, directory, envs, streams, list(learners.state_dicts()))
+    buffer = _make_buffer(config, directory, envs, streams, list(learners.states().values()))
     rng = np.random.default_rng(sampling_seed)
     return Parts(
         config=config,
@@ -117,9 +127,7 @@ def build_training(
             SamplerOrder(config, buffer, envs.reward, envs.gaps, envs.success, rng)
         ),
         exploration=Exploration(config.exploration, np.random.default_rng(exploration_seed)),
-        agent=agent,
-        inverse=learners.inverse,
-        streams=streams,
+        learners=learners,
         make_update=_update_maker(learners, compute.device),
     )
 

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -46,6 +46,7 @@ class Learners:
 
     agent: DdpgAgent
     inverse: InverseLearner | None
+    """Learnt beside the object's policy in locomotion."""
     streams: tuple[Stream, ...]
 
     def update(self, batch: Transitions, sync: bool) -> Update:
@@ -61,13 +62,11 @@ class Learners:
             self.agent.sync_targets()
         return Update(batch, rewards, metrics)
 
-    def state_dicts(self) -> Iterator[Mapping[str, Any]]:
-        """Return the state of each."""
-        yield self.agent.state_dict()
-        if self.inverse is not None:
-            yield self.inverse.state_dict()
-        for stream in self.streams:
-            yield stream.state_dict()
+    def states(self) -> dict[str, Any]:
+        """Return the state of each, by name."""
+        inverse = {} if self.inverse is None else {"inverse": self.inverse.state_dict()}
+        streams = {f"stream {stream.name}": stream.state_dict() for stream in self.streams}
+        return {"agent": self.agent.state_dict(), **inverse, **streams}
 
 
 def update_on(learners: Learners, device: torch.device, sample: Sample, sync: bool) -> Update:

@@ -51,9 +51,9 @@ def main() -> int:
         "quality": partial(measure_quality, options.home),
     }
     for name in named:
-        results[name] = []
         for measured in groups[name]():
-            results[name].append(measured)
+            # A group that measures nothing on this machine leaves what is known of it from another one.
+            results.setdefault(name, []).append(measured)
             print(_as_line(measured), flush=True)
     _keep_json(options.json, results)
     if options.write is not None:

@@ -12,17 +12,15 @@ from functools import partial
 from pathlib import Path
 
 import torch
-from bench_models import save_untrained_model
+from bench_models import paper_training
 from bench_rows import Measured, Target, row, time_pairs
 
-from sldr_core.presets import make_config
-from sldr_core.training.build import Parts, build_training
-from sldr_core.training.cycle import CYCLES, collect_random
-from sldr_core.training.updates import Learners, MakeUpdate, update_on
+from sldr_core.training.build import Parts
+from sldr_core.training.cycle import CYCLES
+from sldr_core.training.updates import MakeUpdate, update_on
 
-BATCH = 4864
 UPDATES = 40
-"""Updates that are timed together, one cycle of the paper's."""
+"""Updates that are timed together, as many as a cycle of the paper has."""
 
 CASES = (("FetchPush", "her"), ("FetchPush", "her-sldr"), ("HandEggRotate", "her"), ("HandEggRotate", "her-sldr"))
 
@@ -41,9 +39,9 @@ def measure_gpu() -> Iterator[Measured]:
 
 def _replayed(root: Path, task: str, method: str, precision: str) -> Measured:
     parts = _parts(root, task, method, precision, "cuda")
-    learners = Learners(parts.agent, parts.inverse, parts.streams)
-    by_operation = partial(update_on, learners, parts.compute.device)
-    sample = parts.sampler.sample(BATCH, 0)
+    by_operation = partial(update_on, parts.learners, parts.compute.device)
+    batch_size = parts.config.loop.batch_size
+    sample = parts.sampler.sample(batch_size, 0)
 
     def learn(make: MakeUpdate) -> None:
         for _ in range(UPDATES):
@@ -54,7 +52,7 @@ def _replayed(root: Path, task: str, method: str, precision: str) -> Measured:
     pairs = time_pairs(lambda: learn(parts.make_update), lambda: learn(by_operation))
     replayed, plain = UPDATES / statistics.median(pairs.ours), UPDATES / statistics.median(pairs.theirs)
     return row(
-        f"{task}, {method}, {precision}: updates at {BATCH} on the GPU, replayed against operation by operation",
+        f"{task}, {method}, {precision}: updates at {batch_size} on the GPU, replayed against operation by operation",
         "x",
         pairs.speedups,
         Target("at least", 1.0),
@@ -85,21 +83,9 @@ def _cycle(root: Path, task: str, method: str) -> Measured:
 
 
 def _parts(root: Path, task: str, method: str, precision: str, device: str) -> Parts:
-    """Return a training of the paper's sizes that has collected one cycle."""
-    config = make_config(
-        task,
-        "manipulation",
-        method,
-        0,
-        "paper",
-        {
-            "compute": {"precision": precision, "device": device},
-            "replay": {"capacity": 50_000},
-            "loop": {"collecting": "beside", "batch_size": BATCH, "updates_per_cycle": UPDATES},
-        },
-    )
-    directory = Path(tempfile.mkdtemp(dir=root))
-    models = [save_untrained_model(directory / "locomotion.pt", task)] if config.needs_locomotion else []
-    parts = build_training(config, directory, models, gate_waived=True)
-    collect_random(parts, lambda: None)
-    return parts
+    settings = {
+        "compute": {"precision": precision, "device": device},
+        "replay": {"capacity": 50_000},
+        "loop": {"collecting": "beside"},
+    }
+    return paper_training(root, task, method, settings)

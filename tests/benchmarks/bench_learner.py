@@ -11,13 +11,12 @@ from typing import Any
 
 import numpy as np
 import torch
-from bench_models import save_untrained_model
+from bench_models import paper_training
 from bench_rows import REPETITIONS, Measured, Stopwatch, Target, row, seconds_of, time_pairs
 
 from sldr_core.nets.transitions import Transitions
-from sldr_core.presets import make_config
 from sldr_core.replay import Sampler
-from sldr_core.training.build import Parts, build_training
+from sldr_core.training.build import Parts
 from sldr_core.training.cycle import collect_random, learn
 
 BATCH = 4864
@@ -119,20 +118,13 @@ class _TimedSampler:
 
 
 def _parts(root: Path, task: str, method: str, precision: str) -> Parts:
-    """Return a training of the paper's sizes that has collected one cycle."""
-    config = make_config(
-        task,
-        "manipulation",
-        method,
-        0,
-        "paper",
-        {"compute": {"precision": precision}, "replay": {"capacity": 100_000}, "loop": {"updates_per_cycle": UPDATES}},
-    )
-    directory = Path(tempfile.mkdtemp(dir=root))
-    models = [save_untrained_model(directory / "locomotion.pt", task)] if config.needs_locomotion else []
-    parts = build_training(config, directory, models, gate_waived=True)
-    collect_random(parts, _carry_on)
-    return parts
+    """Return a training whose cycle has few updates, and whose replay takes little room."""
+    settings = {
+        "compute": {"precision": precision},
+        "replay": {"capacity": 100_000},
+        "loop": {"updates_per_cycle": UPDATES},
+    }
+    return paper_training(root, task, method, settings)
 
 
 def _learn(parts: Parts) -> None:

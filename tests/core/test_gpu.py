@@ -24,7 +24,7 @@ from sldr_core.training import evaluate, load_policy, train
 from sldr_core.training.build import build_training
 from sldr_core.training.cycle import collect_random, learn
 from sldr_core.training.graphs import EAGER_UPDATES
-from sldr_core.training.updates import Learners, update_on
+from sldr_core.training.updates import update_on
 
 needs_gpu = pytest.mark.skipif(not torch.cuda.is_available(), reason="torch finds no GPU on this machine")
 
@@ -87,7 +87,7 @@ def test_a_replayed_update_is_the_one_made_operation_by_operation(
         parts = build_training(config, tmp_path / name, (model,))
         make = parts.make_update
         if name == "by operation":
-            make = partial(update_on, Learners(parts.agent, parts.inverse, parts.streams), parts.compute.device)
+            make = partial(update_on, parts.learners, parts.compute.device)
         collect_random(parts, lambda: None)
         # Both kinds of updates, those that move the targets and those that do not, are captured and replayed.
         updates = [make(parts.sampler.sample(16, number), number % 2 == 0) for number in range(4 * EAGER_UPDATES)]

@@ -42,15 +42,7 @@ from backend.store.study_files.records import (
     file_member,
     metrics_member,
 )
-from backend.store.tables import (
-    AnyRow,
-    episodes,
-    run_events,
-    run_needs,
-    run_progress,
-    runs,
-    study_runs,
-)
+from backend.store.tables import AnyRow, episodes, run_events, run_needs, run_progress, runs, study_runs
 from sldr_core.disk import write_atomically
 from sldr_core.episodes import epoch_of
 
