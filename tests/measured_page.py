@@ -16,6 +16,16 @@ def begin_mark(command: str) -> str:
 
 
 def write_results(page: Path, command: str, parts: Sequence[str]) -> None:
+    """Put paragraphs into a page, after a line that says when and where they were measured: today and here.
+
+    Raises:
+        SystemExit: the page has no place for them.
+    """
+    when = datetime.now(UTC).strftime("%Y-%m-%d")
+    write_parts(page, command, [f"Measured on {when}: {describe_machine()}.", *parts])
+
+
+def write_parts(page: Path, command: str, parts: Sequence[str]) -> None:
     """Put paragraphs into a page, in place of those that the command wrote before.
 
     Raises:
@@ -26,9 +36,7 @@ def write_results(page: Path, command: str, parts: Sequence[str]) -> None:
     _, mark, after = rest.partition(END)
     if not found or not mark:
         raise SystemExit(f"{page} has no place for results; put '{begin}' and '{END}' where they belong.")
-    when = datetime.now(UTC).strftime("%Y-%m-%d")
-    told = [f"Measured on {when}: {describe_machine()}.", *parts]
-    page.write_text(before + begin + "\n\n" + "\n\n".join(told) + "\n\n" + END + after)
+    page.write_text(before + begin + "\n\n" + "\n\n".join(parts) + "\n\n" + END + after)
 
 
 def describe_machine() -> str:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 from collections.abc import Callable, Iterator
+from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
 
@@ -20,7 +20,8 @@ from bench_reaching import PEER_CAP_S, measure_locomotion, measure_manipulation
 from bench_rows import Measured
 from bench_service import measure_service, measure_two_at_once
 from bench_simulation import measure_collecting, measure_locomotion_scenes
-from measured_page import describe_machine, write_results
+from kept_results import KeptGroup, as_line, as_tables, keep_results, read_results
+from measured_page import describe_machine, write_parts
 
 GROUPS: dict[str, Callable[[], Iterator[Measured]]] = {
     "collecting": measure_collecting,
@@ -45,22 +46,30 @@ def main() -> int:
     """Measure the groups asked for; return 1 if a target is missed."""
     options = _parse()
     named = options.only or [name for name in GROUPS if name not in LONG]
-    results: dict[str, list[Measured]] = {}
     groups = GROUPS | {
         "manipulation": partial(measure_manipulation, 3600.0 * options.peer_hours, options.keep_peer),
         "quality": partial(measure_quality, options.home),
     }
+    results = read_results(options.json)
+    measured: list[Measured] = []
     for name in named:
-        for measured in groups[name]():
-            # A group that measures nothing on this machine leaves what is known of it from another one.
-            results.setdefault(name, []).append(measured)
-            print(_as_line(measured), flush=True)
-    _keep_json(options.json, results)
-    if options.write is not None:
-        write_results(options.write, "make bench", [_as_markdown(rows) for rows in results.values()])
-    missed = [measured for rows in results.values() for measured in rows if not measured.is_met]
-    print(f"{len(missed)} of {sum(map(len, results.values()))} rows fall short.")
+        rows = [_told(one) for one in groups[name]()]
+        measured += rows
+        # A group that measures nothing on this machine leaves what is known of it from another one. What was measured
+        # is kept at once: a later group may fail after hours.
+        if rows:
+            results[name] = KeptGroup(datetime.now(UTC).strftime("%Y-%m-%d"), describe_machine(), tuple(rows))
+            keep_results(options.json, results)
+            if options.write is not None:
+                write_parts(options.write, "make bench", as_tables(results, list(GROUPS)))
+    missed = [one for one in measured if not one.is_met]
+    print(f"{len(missed)} of {len(measured)} rows fall short.")
     return 1 if missed else 0
+
+
+def _told(measured: Measured) -> Measured:
+    print(as_line(measured), flush=True)
+    return measured
 
 
 def _parse() -> argparse.Namespace:
@@ -73,39 +82,6 @@ def _parse() -> argparse.Namespace:
     parser.add_argument("--keep-peer", action="store_true", help="take that peer's result from an earlier time here")
     parser.add_argument("--home", type=Path, help="data directory whose finished runs `quality` reads")
     return parser.parse_args()
-
-
-def _as_line(measured: Measured) -> str:
-    return f"{_verdict(measured):<5} {_value(measured):>10}  {measured.what} ({_target(measured)}; {measured.detail})"
-
-
-def _as_markdown(rows: list[Measured]) -> str:
-    lines = [
-        f"| {row.what} | {_target(row)} | **{_value(row)}** ({row.low:.3g} to {row.high:.3g}) | {_verdict(row)} "
-        f"| {row.detail} |"
-        for row in rows
-    ]
-    return "\n".join(["| what | target | median (range) | | detail |", "|---|---|---|---|---|", *lines])
-
-
-def _verdict(measured: Measured) -> str:
-    return "met" if measured.is_met else "SHORT"
-
-
-def _value(measured: Measured) -> str:
-    return f"{measured.value:.3g} {measured.unit}"
-
-
-def _target(measured: Measured) -> str:
-    return f"{measured.target.direction} {measured.target.value:g} {measured.unit}"
-
-
-def _keep_json(path: Path, results: dict[str, list[Measured]]) -> None:
-    """Lay the numbers beside those of groups that were not measured this time."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    known = json.loads(path.read_text())["groups"] if path.exists() else {}
-    groups = {**known, **{name: [row.as_json() for row in rows] for name, rows in results.items()}}
-    path.write_text(json.dumps({"machine": describe_machine(), "groups": groups}, indent=1) + "\n")
 
 
 if __name__ == "__main__":

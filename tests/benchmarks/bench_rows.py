@@ -54,6 +54,12 @@ class Measured:
         return {**asdict(self), "met": self.is_met}
 
 
+def as_measured(kept: Mapping[str, Any]) -> Measured:
+    """Return a row of the plain values that it was kept as."""
+    values = {name: value for name, value in kept.items() if name != "met"}
+    return Measured(**{**values, "target": Target(**kept["target"])})
+
+
 def row(
     what: str,
     unit: str,

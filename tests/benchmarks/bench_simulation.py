@@ -5,9 +5,9 @@ from __future__ import annotations
 import os
 import statistics
 from collections.abc import Iterator
+from functools import partial
 
 import gymnasium as gym
-import gymnasium_robotics
 import numpy as np
 from bench_rows import REPETITIONS, Measured, Stopwatch, Target, row, seconds_of, time_pairs
 
@@ -38,7 +38,6 @@ FETCH_LOCOMOTION = ("FetchPush", "FetchSlide", "FetchPickAndPlace")
 
 def measure_collecting() -> Iterator[Measured]:
     """Collect episodes of every known task, with observations, rewards and success."""
-    gym.register_envs(gymnasium_robotics)
     for task, peer_id in KNOWN_TASKS.items():
         yield _against_gymnasium(task, peer_id)
         yield _against_physics(task)
@@ -64,7 +63,10 @@ def _without_robot(task: str) -> Measured:
 
 def _against_gymnasium(task: str, peer_id: str) -> Measured:
     envs = make_envs(task, num_envs=SIMULATIONS, seed=0, threads=_cores())
-    peer = gym.vector.AsyncVectorEnv([lambda: gym.make(peer_id)] * PEER_WORKERS)
+    # Forked workers would inherit the threads of our simulations as objects without threads, and crash ending them.
+    peer = gym.vector.AsyncVectorEnv(
+        [partial(gym.make, f"gymnasium_robotics:{peer_id}")] * PEER_WORKERS, context="spawn"
+    )
     rng = np.random.default_rng(0)
 
     def run_peer() -> None:

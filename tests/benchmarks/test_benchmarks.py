@@ -11,6 +11,7 @@ from bench_epoch import Epoch
 from bench_quality import compare_quality, measure_quality
 from bench_rows import Pairs, Stopwatch, Target, row, seconds_until
 from bench_service import with_imports
+from kept_results import KeptGroup, as_tables, keep_results, read_results
 from sac_peer import PeerCurve
 
 INFINITY = float("inf")
@@ -127,3 +128,28 @@ def test_quality_without_a_store_says_so(tmp_path: Path, capsys: pytest.CaptureF
     assert list(measure_quality(tmp_path)) == []
     assert f"no store in {tmp_path}" in capsys.readouterr().out
     assert not (tmp_path / "sldr.db").exists()
+
+
+def test_groups_are_kept_and_told_in_their_order_with_day_and_machine(tmp_path: Path) -> None:
+    short = row("speed", "x", [1.5, 2.0, 1.0], Target("at least", 2.0), "1 against 2")
+    curve = row("time", "min", [4.0], Target("at most", 5.0), "", {"steps": [5_000.0], "success": [0.2]})
+    results = {
+        "later": KeptGroup("2026-01-02", "2 cores", (curve,)),
+        "first": KeptGroup("2026-01-02", "2 cores", (short,)),
+        "other": KeptGroup("2026-01-03", "8 cores", (short,)),
+    }
+    path = tmp_path / "build" / "bench.json"
+    assert read_results(path) == {}
+    keep_results(path, results)
+    assert read_results(path) == results
+    told = as_tables(read_results(path), ["first", "absent", "later", "other"])
+    assert [part for part in told if part.startswith("Measured")] == [
+        "Measured on 2026-01-02: 2 cores.",
+        "Measured on 2026-01-03: 8 cores.",
+    ]
+    assert [part.splitlines()[2].split(" | ")[0] for part in told if part.startswith("|")] == [
+        "| speed",
+        "| time",
+        "| speed",
+    ]
+    assert "| at least 2 x | **1.5 x** (1 to 2) | SHORT | 1 against 2 |" in told[1]
