@@ -10,7 +10,7 @@ from backend.store.claims import Claim
 from backend.store.database import Database
 from backend.store.errors import StoreUnavailable
 from backend.store.metrics import MetricPoint, append_metrics
-from backend.store.progress import Progress, report_progress
+from backend.store.progress import Progress
 from worker.patience import insist
 
 FLUSH_S = 0.5
@@ -99,17 +99,15 @@ class MetricWriter:
         with self._write_lock:
             with self._queue_lock:
                 points, progress = list(self._points), self._progress
-            if points:
-                self._write(points)
-                with self._queue_lock:
-                    del self._points[: len(points)]
-            if progress is not None:
-                report_progress(self._db, self._claim, progress)
-                with self._queue_lock:
-                    self._progress = None if self._progress is progress else self._progress
+            if not points and progress is None:
+                return
+            self._write(points, progress)
+            with self._queue_lock:
+                del self._points[: len(points)]
+                self._progress = None if self._progress is progress else self._progress
 
-    def _write(self, points: list[MetricPoint]) -> None:
-        """Store points, or only that the training goes on if there are none."""
+    def _write(self, points: list[MetricPoint], progress: Progress | None = None) -> None:
+        """Store points and how far the training is, or only that it goes on if there are neither."""
         self._lives = False
         self._stamp_at = time.monotonic() + self._stamp_s
-        append_metrics(self._db, self._claim, points)
+        append_metrics(self._db, self._claim, points, progress)

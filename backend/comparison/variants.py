@@ -20,6 +20,9 @@ PLACES = ("compute.device", "compute.threads")
 
 PRESET = "preset"
 
+_ELSEWHERE = frozenset((*IDENTITY, *PLACES))
+"""Settings that are no variant."""
+
 Variant = tuple[tuple[str, str], ...]
 """Settings and their values as text, sorted by name."""
 
@@ -28,8 +31,8 @@ def flatten(config: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
     """Return nested settings as one level with dotted names."""
     flat: dict[str, Any] = {}
     for name, value in config.items():
-        if isinstance(value, Mapping):
-            flat |= flatten(cast(Mapping[str, Any], value), f"{prefix}{name}.")
+        if isinstance(value, dict):
+            flat |= flatten(cast(dict[str, Any], value), f"{prefix}{name}.")
         else:
             flat[f"{prefix}{name}"] = value
     return flat
@@ -48,7 +51,7 @@ def deviations(config: Mapping[str, Any], preset: str) -> Variant:
         sorted(
             (name, as_text(value))
             for name, value in flat.items()
-            if name not in (*IDENTITY, *PLACES) and usual.get(name, value) != value
+            if name not in _ELSEWHERE and usual.get(name, value) != value
         )
     )
 

@@ -6,7 +6,7 @@ import json
 from dataclasses import dataclass
 from datetime import datetime
 
-from sqlalchemy import Connection, update
+from sqlalchemy import Connection, bindparam, update
 
 from backend.store.database import current_time
 from backend.store.errors import StaleFence
@@ -74,10 +74,14 @@ def hold_fence(conn: Connection, claim: Claim) -> None:
     Raises:
         StaleFence: the attempt is over.
     """
-    stamp = (
-        update(runs)
-        .where(runs.c.id == claim.run_id, runs.c.fence == claim.fence, runs.c.state == RunState.RUNNING)
-        .values(progress_at=current_time(conn))
-    )
-    if conn.execute(stamp).rowcount == 0:
+    held = {"of_run": claim.run_id, "of_fence": claim.fence, "at": current_time(conn)}
+    if conn.execute(_STAMP, held).rowcount == 0:
         raise StaleFence(claim.run_id, claim.fence)
+
+
+# Made once: it is run for every write of every training.
+_STAMP = (
+    update(runs)
+    .where(runs.c.id == bindparam("of_run"), runs.c.fence == bindparam("of_fence"), runs.c.state == RunState.RUNNING)
+    .values(progress_at=bindparam("at"))
+)

@@ -30,6 +30,8 @@ IDLE_TRANSACTION_S = 20
 
 Well below a lease: when the runs of a stopped worker are given to others, it must not hold their rows any more.
 """
+SQLITE_CACHE_KIB = 16_000
+"""Pages that a connection to SQLite keeps in memory: a table of thousands of runs is read from there [KiB]."""
 POOL_SIZE = 5
 """Connections that a process keeps open to PostgreSQL."""
 POOL_OVERFLOW = 35
@@ -116,7 +118,7 @@ def _open_postgresql(url: URL) -> Engine:
 def _set_up_sqlite(connection: Any, _record: object) -> None:
     # The driver's own transaction control starts writers too late; `_begin_sqlite` does it instead.
     connection.isolation_level = None
-    for pragma in ("foreign_keys=ON", "synchronous=NORMAL"):
+    for pragma in ("foreign_keys=ON", "synchronous=NORMAL", f"cache_size=-{SQLITE_CACHE_KIB}"):
         connection.execute(f"PRAGMA {pragma}")
 
 

@@ -9,8 +9,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 
-from sqlalchemy import select
-
 from backend.store.database import Database, current_time
 from backend.store.durations import Durations, measure_durations
 from backend.store.order import CLAIM_ORDER
@@ -44,7 +42,7 @@ def list_queue(db: Database) -> list[QueueEntry]:
     with db.read() as conn:
         at = current_time(conn)
         there = (runs.c.state.not_in(ENDED), runs.c.deleted_at.is_(None))
-        rows = run_rows(conn, conn.execute(select(runs).where(*there).order_by(*CLAIM_ORDER)).all())
+        rows = run_rows(conn, there, CLAIM_ORDER)
         alive = [worker for worker in select_workers(conn) if worker.alive]
         durations = measure_durations(conn)
     by_id = {row.id: row for row in rows}

@@ -7,9 +7,9 @@ transaction that stores the points, so the two never differ.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 
-from sqlalchemy import Connection, delete, func, insert, select
+from sqlalchemy import Connection, bindparam, delete, func, insert, select, update
 
 from backend.store.database import Database
 from backend.store.superseded import not_superseded
@@ -49,33 +49,51 @@ LoggedValues = tuple[int, Mapping[str, float]]
 """A step [cycles] and what was logged there, by metric."""
 
 
-def first_step(conn: Connection, run_id: str, attempt: int) -> int | None:
-    """Return the first step that an attempt has logged, or None."""
+def read_summaries(conn: Connection, run_id: str) -> dict[str, MetricSummary]:
+    """Return a run's summaries by metric."""
+    return {
+        row.name: MetricSummary(row.points, row.last_step, row.last, row.lowest, row.highest, tuple(row.tail))
+        for row in conn.execute(_READ, {"of_run": run_id})
+    }
+
+
+def overtakes(conn: Connection, run_id: str, attempt: int, begin: int, known: Mapping[str, MetricSummary]) -> bool:
+    """Tell whether points of a run's newest attempt, from step `begin` on, take the place of points that counted.
+
+    Args:
+        conn: a transaction that has not stored the points yet.
+        run_id: the run.
+        attempt: its newest attempt.
+        begin: the first step of the points [cycles].
+        known: the run's summaries.
+    """
+    if begin > max((summary.last_step for summary in known.values()), default=-1):
+        return False
     query = select(func.min(metric_steps.c.step)).where(
         metric_steps.c.run_id == run_id, metric_steps.c.attempt == attempt
     )
-    return conn.execute(query).scalar_one()
+    first = conn.execute(query).scalar_one()
+    return first is None or begin < first
 
 
-def add_to_summaries(conn: Connection, run_id: str, added: Sequence[LoggedValues], first_before: int | None) -> None:
-    """Bring a run's summaries up to date after its newest attempt has stored points; the caller holds the run.
+def add_to_summaries(
+    conn: Connection, run_id: str, known: Mapping[str, MetricSummary], added: Sequence[LoggedValues]
+) -> None:
+    """Bring a run's summaries up to date after points were stored that overtook none; the caller holds the run.
 
     Args:
-        added: the points, also those without values that were not there before.
-        first_before: the first step that the attempt had logged before.
+        conn: the transaction that has stored the points.
+        run_id: the run.
+        known: its summaries before.
+        added: the points.
     """
-    if not added:
-        return
-    begin = min(step for step, _ in added)
-    if (first_before is None or begin < first_before) and begin <= _newest_step(conn, run_id):
-        rebuild_summaries(conn, run_id)
-        return
-    known = _read(conn, run_id, {name for _, values in added for name in values})
     fresh = _folded(known, sorted(added, key=lambda point: point[0]))
     if fresh is None:
         rebuild_summaries(conn, run_id)
-    else:
-        _replace(conn, run_id, fresh)
+        return
+    logged = {name for _, values in added for name in values}
+    _update(conn, run_id, {name: fresh[name] for name in logged if name in known})
+    _insert(conn, run_id, {name: fresh[name] for name in logged if name not in known})
 
 
 def rebuild_summaries(conn: Connection, run_id: str) -> None:
@@ -90,7 +108,7 @@ def rebuild_summaries(conn: Connection, run_id: str) -> None:
     summaries = _folded({}, points)
     assert summaries is not None  # in the order of steps, nothing comes too late
     conn.execute(delete(metric_summaries).where(metric_summaries.c.run_id == run_id))
-    _replace(conn, run_id, summaries)
+    _insert(conn, run_id, summaries)
 
 
 def rebuild_all_summaries(db: Database) -> int:
@@ -110,23 +128,6 @@ def list_metric_names(db: Database) -> list[str]:
         return sorted(conn.execute(select(metric_summaries.c.name).distinct()).scalars())
 
 
-def _newest_step(conn: Connection, run_id: str) -> int:
-    """Return the newest step that a summary knows, or one before every step."""
-    query = select(func.max(metric_summaries.c.last_step)).where(metric_summaries.c.run_id == run_id)
-    newest = conn.execute(query).scalar_one()
-    return -1 if newest is None else newest
-
-
-def _read(conn: Connection, run_id: str, names: Iterable[str]) -> dict[str, MetricSummary]:
-    query = select(metric_summaries).where(
-        metric_summaries.c.run_id == run_id, metric_summaries.c.name.in_(list(names))
-    )
-    return {
-        row.name: MetricSummary(row.points, row.last_step, row.last, row.lowest, row.highest, tuple(row.tail))
-        for row in conn.execute(query)
-    }
-
-
 def _folded(known: Mapping[str, MetricSummary], points: Iterable[LoggedValues]) -> dict[str, MetricSummary] | None:
     """Return the summaries with the points behind them, or None if one is not later than what is known."""
     summaries = dict(known)
@@ -142,13 +143,20 @@ def _folded(known: Mapping[str, MetricSummary], points: Iterable[LoggedValues]) 
     return summaries
 
 
-def _replace(conn: Connection, run_id: str, summaries: Mapping[str, MetricSummary]) -> None:
-    if not summaries:
-        return
-    conn.execute(
-        delete(metric_summaries).where(
-            metric_summaries.c.run_id == run_id, metric_summaries.c.name.in_(list(summaries))
-        )
-    )
-    rows = [{"run_id": run_id, "name": name, **asdict(summary)} for name, summary in summaries.items()]
-    conn.execute(insert(metric_summaries), rows)
+def _insert(conn: Connection, run_id: str, summaries: Mapping[str, MetricSummary]) -> None:
+    if summaries:
+        rows = [{"run_id": run_id, "name": name, **vars(summary)} for name, summary in summaries.items()]
+        conn.execute(insert(metric_summaries), rows)
+
+
+def _update(conn: Connection, run_id: str, summaries: Mapping[str, MetricSummary]) -> None:
+    if summaries:
+        rows = [{"of_run": run_id, "of_name": name, **vars(summary)} for name, summary in summaries.items()]
+        conn.execute(_UPDATE, rows)
+
+
+# Made once: these are run for every cycle of every training.
+_READ = select(metric_summaries).where(metric_summaries.c.run_id == bindparam("of_run"))
+_UPDATE = update(metric_summaries).where(
+    metric_summaries.c.run_id == bindparam("of_run"), metric_summaries.c.name == bindparam("of_name")
+)

@@ -11,11 +11,18 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from sqlalchemy import Connection, insert, select
+from sqlalchemy import Connection, bindparam, insert, select
 
 from backend.store.claims import Claim, hold_fence
 from backend.store.database import Database
-from backend.store.metric_summaries import LoggedValues, add_to_summaries, first_step
+from backend.store.metric_summaries import (
+    LoggedValues,
+    add_to_summaries,
+    overtakes,
+    read_summaries,
+    rebuild_summaries,
+)
+from backend.store.progress import Progress, store_progress
 from backend.store.superseded import not_superseded
 from backend.store.tables import metric_steps, metric_values
 from sldr_core.records import Step
@@ -53,8 +60,10 @@ class MetricColumns:
     """A column a metric; None where it was not logged."""
 
 
-def append_metrics(db: Database, claim: Claim, points: Sequence[MetricPoint]) -> None:
+def append_metrics(db: Database, claim: Claim, points: Sequence[MetricPoint], progress: Progress | None = None) -> None:
     """Store points in one transaction, and note that the attempt goes on; without points, only that.
+
+    With `progress`, the same transaction replaces that of the run.
 
     A number that is stored already under its attempt, step and name is left alone. So a batch can be sent again when
     nobody knows whether it arrived.
@@ -67,13 +76,21 @@ def append_metrics(db: Database, claim: Claim, points: Sequence[MetricPoint]) ->
     with db.write() as conn:
         hold_fence(conn, claim)
         store_points(conn, claim.run_id, claim.attempt, points)
+        if progress is not None:
+            store_progress(conn, claim.run_id, progress)
 
 
 def store_points(conn: Connection, run_id: str, attempt: int, points: Sequence[MetricPoint]) -> None:
     """Store the points of an attempt whose run the caller holds, and sum them up."""
-    first_before = first_step(conn, run_id, attempt)
+    if not points:
+        return
+    known = read_summaries(conn, run_id)
+    is_overtaking = overtakes(conn, run_id, attempt, min(point.step.cycle for point in points), known)
     added = _insert_points(conn, run_id, attempt, points)
-    add_to_summaries(conn, run_id, added, first_before)
+    if is_overtaking:
+        rebuild_summaries(conn, run_id)
+    else:
+        add_to_summaries(conn, run_id, known, added)
 
 
 def read_metrics(
@@ -114,19 +131,9 @@ def _stored_names(
     conn: Connection, run_id: str, attempt: int, points: Sequence[MetricPoint]
 ) -> dict[int, tuple[int, set[str]]]:
     """Return, for each step that the attempt has logged already, its id and the names under which it did."""
-    if not points:
-        return {}
-    query = (
-        select(metric_steps.c.step, metric_steps.c.id, metric_values.c.name)
-        .outerjoin(metric_values, metric_values.c.step_id == metric_steps.c.id)
-        .where(
-            metric_steps.c.run_id == run_id,
-            metric_steps.c.attempt == attempt,
-            metric_steps.c.step >= min(point.step.cycle for point in points),
-        )
-    )
+    begin = min(point.step.cycle for point in points)
     stored: dict[int, tuple[int, set[str]]] = {}
-    for row in conn.execute(query):
+    for row in conn.execute(_STORED, {"of_run": run_id, "of_attempt": attempt, "begin": begin}):
         stored.setdefault(row.step, (row.id, set()))[1].add(row.name)
     return stored
 
@@ -190,3 +197,15 @@ def _columns(steps: Sequence[Any], values: Sequence[Any]) -> MetricColumns:
         wall_seconds=[row.wall_seconds for row in steps],
         values=columns,
     )
+
+
+# Made once: it is run for every cycle of every training.
+_STORED = (
+    select(metric_steps.c.step, metric_steps.c.id, metric_values.c.name)
+    .outerjoin(metric_values, metric_values.c.step_id == metric_steps.c.id)
+    .where(
+        metric_steps.c.run_id == bindparam("of_run"),
+        metric_steps.c.attempt == bindparam("of_attempt"),
+        metric_steps.c.step >= bindparam("begin"),
+    )
+)

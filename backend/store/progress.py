@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, fields
+from dataclasses import dataclass, fields
 
-from sqlalchemy import Connection, FromClause, insert, select, update
+from sqlalchemy import Connection, FromClause, bindparam, insert, select, update
 
 from backend.store.claims import Claim, hold_fence
 from backend.store.database import Database
@@ -48,24 +48,23 @@ def report_progress(db: Database, claim: Claim, progress: Progress) -> None:
     Raises:
         StaleFence: the attempt is over.
     """
-    values = asdict(progress)
     with db.write() as conn:
         hold_fence(conn, claim)
-        change = update(run_progress).where(run_progress.c.run_id == claim.run_id).values(values)
-        if conn.execute(change).rowcount == 0:
-            conn.execute(insert(run_progress).values(run_id=claim.run_id, **values))
+        store_progress(conn, claim.run_id, progress)
+
+
+def store_progress(conn: Connection, run_id: str, progress: Progress) -> None:
+    """Replace the progress of a run that the caller holds."""
+    values = vars(progress)
+    if conn.execute(_UPDATE, {"of_run": run_id, **values}).rowcount == 0:
+        conn.execute(insert(run_progress).values(run_id=run_id, **values))
 
 
 def find_progress(db: Database, run_id: str) -> Progress | None:
     """Return the run's newest progress, or None before its first report."""
     with db.read() as conn:
-        return select_progress(conn, [run_id]).get(run_id)
-
-
-def select_progress(conn: Connection, run_ids: list[str]) -> dict[str, Progress]:
-    """Return the progress of those of the runs that have reported any."""
-    rows = conn.execute(select(run_progress).where(run_progress.c.run_id.in_(run_ids)))
-    return {row.run_id: _progress(row) for row in rows}
+        row = conn.execute(select(*PROGRESS).where(run_progress.c.run_id == run_id)).one_or_none()
+    return None if row is None else progress_of(row)
 
 
 def with_progress() -> FromClause:
@@ -73,5 +72,19 @@ def with_progress() -> FromClause:
     return runs.outerjoin(run_progress, run_progress.c.run_id == runs.c.id)
 
 
-def _progress(row: AnyRow) -> Progress:
-    return Progress(**{name: getattr(row, name) for name in FIELDS})
+def progress_of(row: AnyRow) -> Progress | None:
+    """Return the progress in a row that has the columns `PROGRESS`; None of a run that has reported none."""
+    values = row[-len(FIELDS) :]
+    return None if values[0] is None else Progress(*values)
+
+
+PROGRESS = [run_progress.c[name].label(f"progress_{name}") for name in FIELDS]
+"""The last columns of a query of runs `with_progress`."""
+
+
+# Made once: it is run for every cycle of every training.
+_UPDATE = (
+    update(run_progress)
+    .where(run_progress.c.run_id == bindparam("of_run"))
+    .values({name: bindparam(name) for name in FIELDS})
+)

@@ -38,7 +38,7 @@ class Mlp(nn.Module):
         for layer, (weight, bias) in enumerate(zip(self.weights, self.biases, strict=True)):
             x = nn.functional.linear(x, weight, bias)
             if layer < last:
-                x = x.relu()
+                x = x.relu_()
         return x.tanh() if self._squash else x
 
 
@@ -61,7 +61,7 @@ class MlpStack(nn.Module):
         for layer, (weight, bias) in enumerate(zip(self.weights, self.biases, strict=True)):
             stacked = torch.baddbmm(bias, stacked, weight)
             if layer < last:
-                stacked = stacked.relu()
+                stacked = stacked.relu_()
         return stacked
 
 

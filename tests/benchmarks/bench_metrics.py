@@ -18,7 +18,7 @@ from mlflow_process import MlflowProcess, open_mlflow
 from backend.store.claims import Claim
 from backend.store.database import Database, open_database
 from backend.store.metrics import MetricPoint, append_metrics
-from backend.store.progress import Progress, report_progress
+from backend.store.progress import Progress
 from backend.store.queue import claim
 from backend.store.settings import Settings, sqlite_url
 from sldr_core.records import Step
@@ -71,7 +71,7 @@ def _as_row(wall: Pairs, cpu: Pairs) -> Measured:
 
 
 class _Writer:
-    """Write batches as a worker's `MetricWriter` does: a point, then how far the run is."""
+    """Write batches as a worker's `MetricWriter` does: a point, and how far the run is."""
 
     def __init__(self, db: Database, held: Claim) -> None:
         self._db = db
@@ -84,8 +84,8 @@ class _Writer:
             self._cycle += 1
             step = Step(self._cycle, 1, 1900 * self._cycle, 38 * self._cycle, 80 * self._cycle, 1.0 * self._cycle)
             point = MetricPoint(step, dict.fromkeys(self._names, math.sin(self._cycle)))
-            append_metrics(self._db, self._held, [point])
-            report_progress(self._db, self._held, replace(_BEGUN, env_steps=step.env_steps, updates=step.updates))
+            progress = replace(_BEGUN, env_steps=step.env_steps, updates=step.updates)
+            append_metrics(self._db, self._held, [point], progress)
 
 
 _BEGUN = Progress(1, 20, 0, 0, 0, 0.1, 0.5, 0.5, 1000.0, 20.0, 60.0)

@@ -115,6 +115,7 @@ def test_children_do_not_outlive_a_parent_that_is_killed():
 def test_an_api_that_never_starts_is_given_up(monkeypatch: pytest.MonkeyPatch, free_port: int):
     monkeypatch.setattr(children, "FIRST_PAUSE_S", 0.01)
     monkeypatch.setattr("worker.cli.commands.serve.LOOK_INTERVAL_S", 0.02)
+    monkeypatch.setattr("worker.cli.commands.serve.HEAD_START_S", 0.0)
     others = Child("worker", SLEEPER, os.environ)
     handlers = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
     try:

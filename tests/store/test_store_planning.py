@@ -43,7 +43,7 @@ def run(name: int, state: RunState, needs: tuple[str, ...] = (), *, needs_gpu: b
         worker_id=None,
         not_before=None,
         deleted_at=None,
-        config={},
+        config_json="{}",
         config_hash="",
     )
 

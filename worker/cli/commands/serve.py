@@ -23,6 +23,9 @@ from worker.cli.children import Child
 LOOK_INTERVAL_S = 0.2
 """How often the children are looked at [s]."""
 
+HEAD_START_S = 5.0
+"""The API starts alone for so long, unless it answers earlier [s]."""
+
 END_S = 30.0
 """How long children may take to checkpoint and end [s]."""
 
@@ -81,9 +84,12 @@ def keep(children: dict[str, Child], address: str, greeting: Callable[[], str]) 
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda number, frame: ended_by.append(number))
     answered = False
+    all_at = time.monotonic() + HEAD_START_S
     try:
         while not ended_by:
-            for child in children.values():
+            # A person waits for the page; the others would take the cores that it needs to start.
+            is_time = answered or time.monotonic() >= all_at
+            for child in children.values() if is_time else (children["API"],):
                 child.keep_alive(_tell)
             if not answered and (answered := _answers(address)):
                 print(greeting(), flush=True)

@@ -107,7 +107,8 @@ class StoreService:
 
 def run_record(row: RunRow) -> RunDetail:
     """Return a row of the store as the API would answer it."""
-    values = {**asdict(row), "state": row.state.value, "locomotion_run_id": row.needs[0] if row.needs else None}
+    told = {"config": row.config, "state": row.state.value, "locomotion_run_id": row.needs[0] if row.needs else None}
+    values = {**asdict(row), **told}
     return _DETAIL.validate_python(values)
 
 
