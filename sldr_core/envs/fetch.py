@@ -84,21 +84,26 @@ class _Objects:
     """Read positions, rotations and velocities of n objects off a scene."""
 
     def __init__(self, simulation: Simulation, objects: int) -> None:
+        self._simulation = simulation
         self._sites = [simulation.site(f"object{index}") for index in range(objects)]
+        self._indices = [site.index for site in self._sites]
         self._dt = SUBSTEPS * simulation.model.opt.timestep
 
     def positions(self) -> Array:
         """Return centres [m], `[N, n, 3]`."""
-        return np.stack([site.pos for site in self._sites], axis=1)
+        return self._simulation.site_pos[:, self._indices]
 
     def eulers(self) -> Array:
         """Return Euler angles [rad], `[N, n, 3]`."""
-        return euler_from_matrix(np.stack([site.mat for site in self._sites], axis=1))
+        matrices = self._simulation.site_mat[:, self._indices]
+        return euler_from_matrix(matrices.reshape(*matrices.shape[:2], 3, 3))
 
     def velocities(self) -> tuple[Array, Array]:
         """Return linear [m] and angular [rad] velocities per control step, each `[N, n, 3]`."""
-        linear, angular = zip(*(site.velocity() for site in self._sites), strict=True)
-        return np.stack(linear, axis=1) * self._dt, np.stack(angular, axis=1) * self._dt
+        moved = np.empty((2, self._simulation.num_envs, len(self._sites), 3))
+        for place, site in enumerate(self._sites):
+            moved[0, :, place], moved[1, :, place] = site.velocity()
+        return moved[0] * self._dt, moved[1] * self._dt
 
 
 class ObjectObserver:

@@ -19,14 +19,15 @@ def euler_from_matrix(matrix: NDArray[np.float64]) -> NDArray[np.float64]:
     """
     cos_y = np.hypot(matrix[..., 2, 2], matrix[..., 1, 2])
     free = cos_y > _GIMBAL_EPS
-    x = np.where(free, np.arctan2(-matrix[..., 1, 2], matrix[..., 2, 2]), 0.0)
-    y = np.arctan2(matrix[..., 0, 2], cos_y)
-    z = np.where(
+    angles = np.empty((*cos_y.shape, 3))
+    angles[..., 0] = np.where(free, np.arctan2(-matrix[..., 1, 2], matrix[..., 2, 2]), 0.0)
+    angles[..., 1] = np.arctan2(matrix[..., 0, 2], cos_y)
+    angles[..., 2] = np.where(
         free,
         np.arctan2(-matrix[..., 0, 1], matrix[..., 0, 0]),
         np.arctan2(matrix[..., 1, 0], matrix[..., 1, 1]),
     )
-    return np.stack([x, y, z], axis=-1)
+    return angles
 
 
 def angle_between(a: NDArray[np.floating], b: NDArray[np.floating]) -> NDArray[np.floating]:

@@ -133,7 +133,7 @@ class Site:
         axes, speeds, com = self.simulation.velocity_parts(self.dofs, self.root)
         twist = np.einsum("nds,nd->ns", axes, speeds)
         angular, linear = twist[:, :3], twist[:, 3:]
-        return linear + np.cross(angular, self.pos - com), angular
+        return linear + _cross(angular, self.pos - com), angular
 
 
 @dataclass(frozen=True)
@@ -149,6 +149,16 @@ class Mocap:
         simulation = self.simulation
         simulation.mocap_pos[:, self.mocap_id] = simulation.body_pos[:, self.body_id] + position_change
         simulation.mocap_quat[:, self.mocap_id] = simulation.body_quat[:, self.body_id] + quaternion_change
+
+
+def _cross(a: Array, b: Array) -> Array:
+    """Return the cross products of `[N, 3]` and `[N, 3]` as `numpy.cross` does, to the last bit, but sooner."""
+    (ax, ay, az), (bx, by, bz) = a.T, b.T
+    product = np.empty_like(a)
+    product[:, 0] = ay * bz - az * by
+    product[:, 1] = az * bx - ax * bz
+    product[:, 2] = ax * by - ay * bx
+    return product
 
 
 def _dofs_above(model: mujoco.MjModel, body: int) -> NDArray[np.int64]:
