@@ -11,7 +11,7 @@ from backend.store.database import Database
 from backend.store.launches import LaunchOrder, launch
 from backend.store.metrics import MetricPoint, append_metrics
 from backend.store.outcomes import Succeeded
-from backend.store.progress import Progress, report_progress
+from backend.store.progress import Progress
 from backend.store.queue import claim, finish
 from sldr_core.records import Step
 
@@ -60,12 +60,12 @@ def log_curve(db: Database, held: Claim, names: Sequence[str], epochs: int, draw
         MetricPoint(_step(epoch), {name: _value(name, epoch, speed, drawn) for name in names})
         for epoch in range(1, epochs + 1)
     ]
-    append_metrics(db, held, points)
     successes = [point.values[METRICS[0]] for point in points]
     last = points[-1].step
-    report_progress(
+    append_metrics(
         db,
         held,
+        points,
         Progress(
             epoch=epochs,
             epochs=epochs,

@@ -21,8 +21,7 @@ def write_results(page: Path, command: str, parts: Sequence[str]) -> None:
     Raises:
         SystemExit: the page has no place for them.
     """
-    when = datetime.now(UTC).strftime("%Y-%m-%d")
-    write_parts(page, command, [f"Measured on {when}: {describe_machine()}.", *parts])
+    write_parts(page, command, [measured_on(today(), describe_machine()), *parts])
 
 
 def write_parts(page: Path, command: str, parts: Sequence[str]) -> None:
@@ -37,6 +36,16 @@ def write_parts(page: Path, command: str, parts: Sequence[str]) -> None:
     if not found or not mark:
         raise SystemExit(f"{page} has no place for results; put '{begin}' and '{END}' where they belong.")
     page.write_text(before + begin + "\n\n" + "\n\n".join(parts) + "\n\n" + END + after)
+
+
+def measured_on(day: str, machine: str) -> str:
+    """Return the line that stands before what was measured."""
+    return f"Measured on {day}: {machine}."
+
+
+def today() -> str:
+    """Return the day as YYYY-MM-DD."""
+    return datetime.now(UTC).strftime("%Y-%m-%d")
 
 
 def describe_machine() -> str:

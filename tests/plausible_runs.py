@@ -11,7 +11,7 @@ from backend.store.claims import Claim
 from backend.store.database import Database
 from backend.store.metrics import MetricPoint, append_metrics
 from backend.store.outcomes import Failed, Succeeded
-from backend.store.progress import Progress, report_progress
+from backend.store.progress import Progress
 from backend.store.queue import claim, finish
 from backend.store.workers import Machine, register_worker
 from sldr_core.records import Step
@@ -129,4 +129,4 @@ def _report(db: Database, claimed: Claim, point: MetricPoint, curve: np.ndarray,
         updates_per_s=33.0,
         seconds_left=left * EPOCH_S,
     )
-    report_progress(db, claimed, progress)
+    append_metrics(db, claimed, [], progress)

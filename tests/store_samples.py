@@ -12,7 +12,7 @@ from backend.store.database import Database
 from backend.store.launches import LaunchOrder, launch
 from backend.store.metrics import MetricPoint, append_metrics
 from backend.store.outcomes import Succeeded
-from backend.store.progress import Progress, report_progress
+from backend.store.progress import Progress
 from backend.store.queue import claim, finish
 from backend.store.workers import register_worker
 from sldr_core.records import Step
@@ -58,7 +58,7 @@ def _train(db: Database, held: Claim, size: SampleSize, rng: np.random.Generator
     append_metrics(db, held, list(_points(success, size.metrics, rng)))
     best = float(success.max())
     report = Progress(size.epochs, size.epochs, 100, 2, 4, 1.0, float(success[-1]), best, None, None, None)
-    report_progress(db, held, report)
+    append_metrics(db, held, [], report)
     finish(db, held, Succeeded(float(success[-1])))
 
 

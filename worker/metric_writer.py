@@ -99,12 +99,10 @@ class MetricWriter:
         with self._write_lock:
             with self._queue_lock:
                 points, progress = list(self._points), self._progress
-            if not points and progress is None:
-                return
-            self._write(points, progress)
-            with self._queue_lock:
-                del self._points[: len(points)]
-                self._progress = None if self._progress is progress else self._progress
+            if points:
+                self._write(points, progress)
+                with self._queue_lock:
+                    del self._points[: len(points)]
 
     def _write(self, points: list[MetricPoint], progress: Progress | None = None) -> None:
         """Store points and how far the training is, or only that it goes on if there are neither."""

@@ -6,7 +6,6 @@ from dataclasses import dataclass, fields
 
 from sqlalchemy import Connection, FromClause, bindparam, insert, select, update
 
-from backend.store.claims import Claim, hold_fence
 from backend.store.database import Database
 from backend.store.tables import AnyRow, run_progress, runs
 
@@ -40,17 +39,6 @@ class Progress:
 
 
 FIELDS = tuple(field.name for field in fields(Progress))
-
-
-def report_progress(db: Database, claim: Claim, progress: Progress) -> None:
-    """Replace the run's progress.
-
-    Raises:
-        StaleFence: the attempt is over.
-    """
-    with db.write() as conn:
-        hold_fence(conn, claim)
-        store_progress(conn, claim.run_id, progress)
 
 
 def store_progress(conn: Connection, run_id: str, progress: Progress) -> None:

@@ -119,11 +119,6 @@ class Site:
         """Positions [m], `[N, 3]`, a view."""
         return self.simulation.site_pos[:, self.index]
 
-    @property
-    def mat(self) -> Array:
-        """Rotation matrices, `[N, 3, 3]`, a view."""
-        return self.simulation.site_mat[:, self.index].reshape(-1, 3, 3)
-
     def velocity(self) -> tuple[Array, Array]:
         """Return linear [m/s] and angular [rad/s] velocity, each `[N, 3]`.
 

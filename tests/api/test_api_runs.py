@@ -7,7 +7,7 @@ from live_api import Service, problem_fields
 
 from backend.store.metrics import MetricPoint, append_metrics
 from backend.store.outcomes import Failed, HandedBack
-from backend.store.progress import Progress, report_progress
+from backend.store.progress import Progress
 from backend.store.queue import finish
 from sldr_core.records import Step
 
@@ -57,7 +57,7 @@ def test_a_filter_that_cannot_work_is_named(unused_service: Service, params: dic
 def test_a_run_shows_its_config_progress_and_what_it_needs(service: Service):
     locomotion_id, run_id = service.launch(method="her-sldr")
     held = service.claim()
-    report_progress(service.database, held, Progress(1, 2, 400, 8, 16, 0.25, 0.5, 0.75, 100.0, 50.0, 3.0))
+    append_metrics(service.database, held, [], Progress(1, 2, 400, 8, 16, 0.25, 0.5, 0.75, 100.0, 50.0, 3.0))
     locomotion = service.get(f"/api/runs/{locomotion_id}")
     assert locomotion["progress"]["success_rate"] == 0.5
     assert (locomotion["state"], locomotion["attempt"]) == ("running", 1)
@@ -80,7 +80,7 @@ def test_the_table_is_sorted_on_the_server_across_pages(service: Service):
     ids = service.launch(seeds=(0, 1, 2))
     for success in (0.5, 0.9):
         held = service.claim()
-        report_progress(service.database, held, Progress(1, 2, 400, 8, 16, 0.25, success, success, None, None, None))
+        append_metrics(service.database, held, [], Progress(1, 2, 400, 8, 16, 0.25, success, success, None, None, None))
     params = {"sort": "success", "limit": 2}
     first = service.get("/api/runs", params=params)
     second = service.get("/api/runs", params=params | {"cursor": first["next_cursor"]})

@@ -11,15 +11,15 @@ from live_api import Service, problem_fields
 from test_api_runs import step
 
 from backend.store.metrics import MetricPoint, append_metrics
-from backend.store.progress import Progress, report_progress
+from backend.store.progress import Progress
 
 
 def train(service: Service, *scores: float) -> str:
     """Let the next run log a score in every cycle; return its id."""
     held = service.claim()
     points = [MetricPoint(step(cycle), {"test/score": score}) for cycle, score in enumerate(scores, start=1)]
-    append_metrics(service.database, held, points)
-    report_progress(service.database, held, Progress(1, 2, 400, 8, 16, 0.5, scores[-1], max(scores), None, None, None))
+    progress = Progress(1, 2, 400, 8, 16, 0.5, scores[-1], max(scores), None, None, None)
+    append_metrics(service.database, held, points, progress)
     return held.run_id
 
 

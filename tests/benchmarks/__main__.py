@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Callable, Iterator
-from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
 
@@ -21,7 +20,7 @@ from bench_rows import Measured
 from bench_service import measure_service, measure_two_at_once
 from bench_simulation import measure_collecting, measure_locomotion_scenes
 from kept_results import KeptGroup, as_line, as_tables, keep_results, read_results
-from measured_page import describe_machine, write_parts
+from measured_page import describe_machine, today, write_parts
 
 GROUPS: dict[str, Callable[[], Iterator[Measured]]] = {
     "collecting": measure_collecting,
@@ -58,7 +57,7 @@ def main() -> int:
         # A group that measures nothing on this machine leaves what is known of it from another one. What was measured
         # is kept at once: a later group may fail after hours.
         if rows:
-            results[name] = KeptGroup(datetime.now(UTC).strftime("%Y-%m-%d"), describe_machine(), tuple(rows))
+            results[name] = KeptGroup(today(), describe_machine(), tuple(rows))
             keep_results(options.json, results)
             if options.write is not None:
                 write_parts(options.write, "make bench", as_tables(results, list(GROUPS)))

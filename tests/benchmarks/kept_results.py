@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from bench_rows import Measured, as_measured
+from measured_page import measured_on
 
 
 @dataclass(frozen=True)
@@ -50,7 +51,7 @@ def as_tables(results: Mapping[str, KeptGroup], order: Sequence[str]) -> list[st
     for name in (name for name in order if name in results):
         group = results[name]
         if (group.day, group.machine) != before:
-            told.append(f"Measured on {group.day}: {group.machine}.")
+            told.append(measured_on(group.day, group.machine))
             before = (group.day, group.machine)
         told.append(_as_table(group.rows))
     return told

@@ -112,20 +112,34 @@ def test_children_do_not_outlive_a_parent_that_is_killed():
     wait_for(lambda: not is_running(orphan), patience_s=5)
 
 
-def test_an_api_that_never_starts_is_given_up(monkeypatch: pytest.MonkeyPatch, free_port: int):
+@pytest.fixture
+def impatient(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Look at children often and start them again soon; afterwards signals are handled as before."""
     monkeypatch.setattr(children, "FIRST_PAUSE_S", 0.01)
     monkeypatch.setattr("worker.cli.commands.serve.LOOK_INTERVAL_S", 0.02)
+    handlers = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    yield
+    for number, handler in handlers.items():
+        signal.signal(number, handler)
+
+
+@pytest.mark.usefixtures("impatient")
+def test_an_api_that_never_starts_is_given_up(monkeypatch: pytest.MonkeyPatch, free_port: int):
     monkeypatch.setattr("worker.cli.commands.serve.HEAD_START_S", 0.0)
     others = Child("worker", SLEEPER, os.environ)
-    handlers = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
-    try:
-        with pytest.raises(CannotServe, match="ended 5 times before it answered"):
-            keep({"API": Child("API", FAILING, os.environ), "worker": others}, f"http://127.0.0.1:{free_port}", str)
-    finally:
-        for number, handler in handlers.items():
-            signal.signal(number, handler)
+    with pytest.raises(CannotServe, match="ended 5 times before it answered"):
+        keep({"API": Child("API", FAILING, os.environ), "worker": others}, f"http://127.0.0.1:{free_port}", str)
     assert others.pid is not None
     assert not is_running(others.pid)
+
+
+@pytest.mark.usefixtures("impatient")
+def test_the_api_starts_ahead_of_the_others(monkeypatch: pytest.MonkeyPatch, free_port: int):
+    monkeypatch.setattr("worker.cli.commands.serve.HEAD_START_S", 60.0)
+    others = Child("worker", SLEEPER, os.environ)
+    with pytest.raises(CannotServe):
+        keep({"API": Child("API", FAILING, os.environ), "worker": others}, f"http://127.0.0.1:{free_port}", str)
+    assert others.pid is None
 
 
 def test_the_service_starts_heals_and_ends_as_one(tmp_path: Path, free_port: int):

@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from backend.store.database import Database
+from backend.store.metrics import append_metrics
 from backend.store.outcomes import Outcome
-from backend.store.progress import Progress, report_progress
+from backend.store.progress import Progress
 from backend.store.queue import claim, finish
 from backend.store.studies.matrix import MatrixCell, StudyMatrix, get_study
 from backend.store.studies.spec import Cell, StudySpec
@@ -32,7 +33,7 @@ def train_next(db: Database, outcome: Outcome, best: float | None = None, fracti
     """Let a worker take the next run, report how far it came, and end it; return its id."""
     taken = claim(db, "worker-1")
     assert taken is not None
-    report_progress(db, taken, progress(fraction, best))
+    append_metrics(db, taken, [], progress(fraction, best))
     finish(db, taken, outcome)
     return taken.run_id
 

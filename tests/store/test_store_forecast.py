@@ -12,9 +12,10 @@ from backend.store.actions import Action, act_on
 from backend.store.database import Database
 from backend.store.forecast import QueueEntry, list_queue
 from backend.store.launches import launch
+from backend.store.metrics import append_metrics
 from backend.store.order import set_priority
 from backend.store.outcomes import Failed, Succeeded
-from backend.store.progress import Progress, report_progress
+from backend.store.progress import Progress
 from backend.store.queue import claim, finish
 from backend.store.states import RunState
 from backend.store.tables import attempts, workers
@@ -109,7 +110,7 @@ def test_a_running_run_ends_when_it_says(db: Database) -> None:
     launch(db, order(seeds=(1, 2)))
     worker_id = register_worker(db, "here", 1, slots=1)
     claimed = claim_next(db, worker_id)
-    report_progress(db, claimed, Progress(1, 2, 0, 0, 0, 0.5, None, None, None, None, 120.0))
+    append_metrics(db, claimed, [], Progress(1, 2, 0, 0, 0, 0.5, None, None, None, None, 120.0))
 
     running, queued = list_queue(db)
 
@@ -124,7 +125,7 @@ def test_a_run_that_was_half_done_is_expected_to_take_half_as_long(db: Database)
     measured_run(db, 600.0)
     launch(db, order(seeds=(1,)))
     claimed = claim_next(db)
-    report_progress(db, claimed, Progress(1, 2, 0, 0, 0, 0.5, None, None, None, None, None))
+    append_metrics(db, claimed, [], Progress(1, 2, 0, 0, 0, 0.5, None, None, None, None, None))
     put_in_state(db, claimed.run_id, RunState.QUEUED)
     register_worker(db, "here", 1, slots=1)
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 from sqlalchemy import func, select
 from store_cases import claim_next, claimed_run, step
@@ -11,6 +13,7 @@ from backend.store.database import Database
 from backend.store.errors import StaleFence
 from backend.store.metrics import MetricPoint, append_metrics, read_metrics
 from backend.store.outcomes import HandedBack
+from backend.store.progress import Progress, find_progress
 from backend.store.queue import finish
 from backend.store.tables import metric_steps
 
@@ -41,6 +44,17 @@ def test_points_come_back_in_columns(db: Database) -> None:
     assert columns.env_steps == [200, 400]
     assert columns.wall_seconds == [0.5, 1.0]
     assert columns.values == {"a/x": [1.0, 2.0], "test/success_rate": [None, 0.5]}
+
+
+def test_points_and_progress_arrive_together_or_not_at_all(db: Database) -> None:
+    claim, halfway = claimed_run(db), Progress(1, 2, 200, 4, 8, 0.5, 0.25, 0.25, 100.0, 50.0, 3.0)
+    append_metrics(db, claim, [MetricPoint(step(1), {"a/x": 1.0})], halfway)
+    assert (stored_points(db), find_progress(db, claim.run_id)) == (1, halfway)
+
+    next_attempt(db, claim)
+    with pytest.raises(StaleFence):
+        append_metrics(db, claim, [MetricPoint(step(2), {"a/x": 2.0})], replace(halfway, fraction=1.0))
+    assert (stored_points(db), find_progress(db, claim.run_id)) == (1, halfway)
 
 
 def test_only_the_metrics_asked_for_come_back(db: Database) -> None:

@@ -19,7 +19,7 @@ from backend.store.files import register_file
 from backend.store.launches import launch
 from backend.store.metrics import append_metrics
 from backend.store.outcomes import MAX_ATTEMPTS, Cancelled, Failed, HandedBack, Paused, Succeeded
-from backend.store.progress import Progress, report_progress
+from backend.store.progress import Progress
 from backend.store.queue import claim, finish, heartbeat, read_requests, reap_expired
 from backend.store.runs import get_run, list_events
 from backend.store.settings import Settings
@@ -99,7 +99,7 @@ def test_each_claim_raises_fence_and_attempt(db: Database) -> None:
     "write",
     [
         lambda db, claim: append_metrics(db, claim, []),
-        lambda db, claim: report_progress(db, claim, Progress(1, 2, 3, 4, 5, 0.5, None, None, None, None, None)),
+        lambda db, claim: append_metrics(db, claim, [], Progress(1, 2, 3, 4, 5, 0.5, None, None, None, None, None)),
         lambda db, claim: register_file(db, claim, "policy.pt", "policy", "runs/x/policy.pt", 1, "0" * 64),
         lambda db, claim: finish(db, claim, Succeeded(1.0)),
     ],

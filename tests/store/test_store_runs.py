@@ -11,7 +11,8 @@ from backend.store.database import Database
 from backend.store.errors import NotFound
 from backend.store.files import find_file, list_files, register_file
 from backend.store.launches import launch
-from backend.store.progress import Progress, find_progress, report_progress
+from backend.store.metrics import append_metrics
+from backend.store.progress import Progress, find_progress
 from backend.store.runs import RunFilter, get_run, get_runs, list_events, list_runs
 from backend.store.states import RunState
 from sldr_core.errors import InvalidConfig
@@ -78,8 +79,8 @@ def test_the_newest_progress_replaces_the_one_before(db: Database) -> None:
     claim = claimed_run(db)
     assert get_run(db, claim.run_id).progress is None
 
-    report_progress(db, claim, HALFWAY)
-    report_progress(db, claim, replace(HALFWAY, fraction=0.75))
+    append_metrics(db, claim, [], HALFWAY)
+    append_metrics(db, claim, [], replace(HALFWAY, fraction=0.75))
 
     assert get_run(db, claim.run_id).progress == find_progress(db, claim.run_id) == replace(HALFWAY, fraction=0.75)
 
