@@ -13,13 +13,16 @@ from dataclasses import dataclass
 import torch
 from torch import Tensor
 
-from sldr_core.config import Part, Phase, TaskSpec
+from sldr_core.config import Part, Phase, PoseGoal, TaskSpec
 
 Features = Callable[[Tensor, Tensor], Tensor]
 """Return features `[..., F]` of observations `[..., D]` and goals `[..., G]`."""
 
 POSITION_SIZE = 3
 """Entries of a position, of Euler angles, of a velocity."""
+
+QUATERNION_SIZE = 4
+"""Entries of a rotation, the last ones of a pose."""
 
 HAND_ROBOT_SIZE = 48
 """Entries of the hand's own joints, before the object's in an observation: 24 positions, 24 velocities."""
@@ -46,6 +49,16 @@ class PartView:
 def joined_features(obs: Tensor, goal: Tensor) -> Tensor:
     """Return what is seen with the goal behind it."""
     return torch.cat([obs, goal], dim=-1)
+
+
+def pose_features(obs: Tensor, goal: Tensor) -> Tensor:
+    """Return what is seen, the object's pose last, with the goal's behind it.
+
+    The goal's quaternion gets the sign that is nearer to the object's: both signs are the same rotation.
+    """
+    seen, wanted = obs[..., -QUATERNION_SIZE:], goal[..., -QUATERNION_SIZE:]
+    is_opposite = (seen * wanted).sum(dim=-1, keepdim=True) < 0.0
+    return torch.cat([obs, goal[..., :-QUATERNION_SIZE], torch.where(is_opposite, -wanted, wanted)], dim=-1)
 
 
 def object_features(state: Tensor, goal: Tensor) -> Tensor:
@@ -77,11 +90,11 @@ def transition_features(state: Tensor, next_state: Tensor) -> Tensor:
 
 def view_of(task: TaskSpec, phase: Phase) -> View:
     """Return how the one who acts in `phase` sees the task."""
-    if phase == "manipulation":
-        return View(task.obs_size + task.goal_size, joined_features)
-    if task.family == "hand":
-        return View(task.object_state_size + task.goal_size, joined_features)
-    return View(task.object_state_size + 2 * task.goal_size, object_features)
+    if phase == "locomotion" and task.family != "hand":
+        return View(task.object_state_size + 2 * task.goal_size, object_features)
+    signed = isinstance(task.goal, PoseGoal) and task.goal.nearer_sign
+    size = task.obs_size if phase == "manipulation" else task.object_state_size
+    return View(size + task.goal_size, pose_features if signed else joined_features)
 
 
 def part_view(task: TaskSpec, part: Part) -> PartView:

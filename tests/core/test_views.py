@@ -9,7 +9,14 @@ import torch
 from sldr_core.config import PHASES, Phase, find_task
 from sldr_core.envs import Envs, make_envs
 from sldr_core.envs.fetch import ObjectObserver
-from sldr_core.nets.views import joined_features, object_features, part_view, transition_features, view_of
+from sldr_core.nets.views import (
+    joined_features,
+    object_features,
+    part_view,
+    pose_features,
+    transition_features,
+    view_of,
+)
 
 TASK = find_task("FetchPush")
 
@@ -76,6 +83,34 @@ def test_the_robot_sees_its_observation_and_then_the_goal() -> None:
     obs, goal = torch.arange(25.0)[None], torch.tensor([[-1.0, -2.0, -3.0]])
 
     assert joined_features(obs, goal).tolist() == [[*range(25), -1, -2, -3]]
+
+
+def test_a_goal_is_seen_with_the_sign_that_is_nearer_to_the_object() -> None:
+    """Two objects turned alike, whose goals are one rotation written with either sign."""
+    state = torch.tensor([[0.0, 0.0, 1.0, 2.0, 3.0, 0.8, 0.6, 0.0, 0.0]]).repeat(2, 1)
+    goal = torch.tensor([[4.0, 5.0, 6.0, 0.6, 0.0, 0.8, 0.0], [4.0, 5.0, 6.0, -0.6, 0.0, -0.8, 0.0]])
+
+    features = pose_features(state, goal)
+
+    assert torch.equal(features[0], torch.cat([state[0], goal[0]]))
+    assert torch.equal(features[1], features[0])
+
+
+@pytest.mark.parametrize("phase", PHASES)
+@pytest.mark.parametrize("task", ["HandBlockRotate", "HandPenRotate"])
+def test_the_hand_is_told_of_a_rotation_and_not_of_its_sign(task: str, phase: Phase) -> None:
+    now = make_envs(task, phase, num_envs=8).observe()
+    obs, goal = torch.from_numpy(now.obs), torch.from_numpy(now.goal)
+    flipped = goal * torch.tensor([1, 1, 1, -1, -1, -1, -1])
+    view, raw = view_of(find_task(task), phase), view_of(find_task(task, "original"), phase)
+
+    seen = view.features(obs, goal)
+
+    assert torch.equal(view.features(obs, flipped), seen)
+    assert torch.equal(seen[:, :-4], joined_features(obs, goal)[:, :-4])
+    assert torch.equal(seen[:, -4:].abs(), goal[:, -4:].abs())
+    assert ((seen[:, -4:] * torch.from_numpy(now.achieved)[:, 3:]).sum(dim=1) >= 0).all()
+    assert torch.equal(raw.features(obs, flipped), joined_features(obs, flipped))
 
 
 def test_a_transition_is_seen_as_the_state_and_its_change() -> None:

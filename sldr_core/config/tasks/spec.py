@@ -47,6 +47,11 @@ class PoseGoal:
     """Success: the object is turned less than this from its goal [rad]; a quaternion's sign means nothing."""
     ignore_z: bool = False
     """Whether the third Euler angle is not scored: a pen may turn about its own axis."""
+    nearer_sign: bool = True
+    """Whether networks see the goal's quaternion with the sign that is nearer to the object's; either is the same goal.
+
+    Goals of hindsight have the object's own sign, so the other one would hardly be learnt.
+    """
 
 
 @dataclass(frozen=True, kw_only=True, config=_FROZEN)
