@@ -34,10 +34,14 @@ GROUPS: dict[str, Callable[[], Iterator[Measured]]] = {
     "two-at-once": measure_two_at_once,
     "clients": measure_clients,
     "locomotion": measure_locomotion,
-    "manipulation": measure_manipulation,
+    "push": partial(measure_manipulation, "FetchPush", "FetchPush-v4", 5.0),
+    "pick-and-place": partial(measure_manipulation, "FetchPickAndPlace", "FetchPickAndPlace-v4", 25.0),
     "quality": measure_quality,
 }
-LONG = ("manipulation", "quality")
+AGAINST_PEERS = ("push", "pick-and-place")
+"""Groups in which a peer is trained for hours."""
+
+LONG = (*AGAINST_PEERS, "quality")
 """Groups of hours, and of runs that took hours: measured only when they are named."""
 
 
@@ -45,10 +49,9 @@ def main() -> int:
     """Measure the groups asked for; return 1 if a target is missed."""
     options = _parse()
     named = options.only or [name for name in GROUPS if name not in LONG]
-    groups = GROUPS | {
-        "manipulation": partial(measure_manipulation, 3600.0 * options.peer_hours, options.keep_peer),
-        "quality": partial(measure_quality, options.home),
-    }
+    peer = {"cap_s": 3600.0 * options.peer_hours, "take_kept": options.keep_peer}
+    groups = GROUPS | {name: partial(GROUPS[name], **peer) for name in AGAINST_PEERS}
+    groups["quality"] = partial(measure_quality, options.home)
     results = read_results(options.json)
     measured: list[Measured] = []
     for name in named:
@@ -77,7 +80,7 @@ def _parse() -> argparse.Namespace:
     parser.add_argument("--write", type=Path, metavar="PAGE", help="put the table into this page")
     parser.add_argument("--json", type=Path, default=Path("build/bench.json"), help="where the numbers go")
     hours = PEER_CAP_S / 3600.0
-    parser.add_argument("--peer-hours", type=float, default=hours, help="how long the peer of manipulation may train")
+    parser.add_argument("--peer-hours", type=float, default=hours, help="how long a robot's peer may train")
     parser.add_argument("--keep-peer", action="store_true", help="take that peer's result from an earlier time here")
     parser.add_argument("--home", type=Path, help="data directory whose finished runs `quality` reads")
     return parser.parse_args()
