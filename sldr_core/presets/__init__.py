@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Mapping
-from typing import Any, cast
+from typing import Any, Literal, cast
 
 from pydantic import ConfigDict
 from pydantic.dataclasses import dataclass
@@ -42,6 +42,8 @@ class Preset:
     """Settings of manipulation runs."""
     locomotion: Settings
     """Settings of locomotion runs."""
+    epochs: Literal["paper", "quick"] = "paper"
+    """Which of a task's numbers of epochs it begins with."""
 
 
 QUICK_AGENT: Settings = {
@@ -63,7 +65,6 @@ PRESETS: dict[str, Preset] = {
             summary="Reach a learnt policy while you watch: small nets, and updates where something moved.",
             manipulation={
                 "loop": {
-                    "epochs": 15,
                     "cycles_per_epoch": 15,
                     "collecting": "beside",
                     "warmup_cycles": 45,
@@ -79,7 +80,6 @@ PRESETS: dict[str, Preset] = {
             },
             locomotion={
                 "loop": {
-                    "epochs": 10,
                     "cycles_per_epoch": 10,
                     "collecting": "beside",
                     "updates_per_sync": 4,
@@ -90,6 +90,7 @@ PRESETS: dict[str, Preset] = {
                 },
                 "agent": QUICK_AGENT,
             },
+            epochs="quick",
         ),
         Preset(
             name="paper",
@@ -163,9 +164,11 @@ def make_config(
         InvalidConfig: a setting is unknown or cannot work.
     """
     settings: Settings = {"task": task, "phase": phase, "method": method, "seed": seed}
-    _merge(settings, _task_settings(find_task(task, _variant_in(overrides)), phase))
+    spec, budget = find_task(task, _variant_in(overrides)), find_preset(preset)
+    _merge(settings, _task_settings(spec, phase))
+    _merge(settings, {"loop": {"epochs": _epochs(spec, phase, budget)}})
     _merge(settings, {"replay": {"relabel_probability": find_method(method).relabel_probability}})
-    _merge(settings, getattr(find_preset(preset), phase))
+    _merge(settings, getattr(budget, phase))
     _merge(settings, overrides or {})
     return config_from_dict(settings)
 
@@ -215,12 +218,17 @@ def _variant_in(overrides: Settings | None) -> Variant:
 def _task_settings(task: TaskSpec, phase: Phase) -> Settings:
     if phase == "locomotion":
         return {
-            "loop": {"epochs": task.paper_locomotion_epochs},
             "agent": {"gamma": task.locomotion_gamma},
             "exploration": {"random_action_probability": 0.2, "noise_std": 0.05},
         }
     returns = {"lowest_return": task.lowest_return, "lowest_auxiliary_return": task.lowest_auxiliary_return}
-    return {"loop": {"epochs": task.paper_epochs}, "agent": {"gamma": task.gamma, **returns}}
+    return {"agent": {"gamma": task.gamma, **returns}}
+
+
+def _epochs(task: TaskSpec, phase: Phase, preset: Preset) -> int:
+    if preset.epochs == "quick":
+        return task.quick_locomotion_epochs if phase == "locomotion" else task.quick_epochs
+    return task.paper_locomotion_epochs if phase == "locomotion" else task.paper_epochs
 
 
 def _merge(settings: Settings, changes: Settings, path: str = "") -> None:

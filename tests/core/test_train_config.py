@@ -192,7 +192,9 @@ def test_task_then_method_then_preset_then_overrides_decide() -> None:
     assert config.replay.relabel_probability == METHODS["ddpg"].relabel_probability == 0.0
     assert config.loop.batch_size == PRESETS["quick"].locomotion["loop"]["batch_size"]
     assert config.loop.epochs == 3
-    assert make_config("FetchPush", "locomotion", "her", 0, "quick").loop.epochs == 10
+    assert make_config("FetchPush", "locomotion", "her", 0, "quick").loop.epochs == task.quick_locomotion_epochs == 10
+    assert make_config("FetchPush", "manipulation", "her", 0, "quick").loop.epochs == task.quick_epochs == 15
+    assert make_config("FetchSlide", "manipulation", "her", 0, "quick").loop.epochs == 40
     paper = make_config("FetchPush", "locomotion", "her", 0, "paper")
     assert (paper.loop.epochs, paper.agent.gamma) == (task.paper_locomotion_epochs, task.locomotion_gamma)
 

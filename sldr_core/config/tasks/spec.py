@@ -218,6 +218,10 @@ class TaskSpec:
     """Epochs of a manipulation run in the paper's protocol."""
     paper_locomotion_epochs: int
     """Epochs of a locomotion run in the paper's protocol."""
+    quick_epochs: int = 40
+    """Epochs of a manipulation run of the preset `quick`, at most: it ends once the robot has learnt."""
+    quick_locomotion_epochs: int = 40
+    """Epochs of a locomotion run of the preset `quick`, at most."""
     gamma: float
     """Discount of the manipulation phase."""
     locomotion_gamma: float
