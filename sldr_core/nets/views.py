@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import torch
 from torch import Tensor
@@ -23,6 +24,9 @@ POSITION_SIZE = 3
 
 QUATERNION_SIZE = 4
 """Entries of a rotation, the last ones of a pose."""
+
+TWIST_EPS = 1e-6
+"""Twists of less than this are none."""
 
 HAND_ROBOT_SIZE = 48
 """Entries of the hand's own joints, before the object's in an observation: 24 positions, 24 velocities."""
@@ -51,14 +55,39 @@ def joined_features(obs: Tensor, goal: Tensor) -> Tensor:
     return torch.cat([obs, goal], dim=-1)
 
 
-def pose_features(obs: Tensor, goal: Tensor) -> Tensor:
-    """Return what is seen, the object's pose last, with the goal's behind it.
+def pose_features(obs: Tensor, goal: Tensor, ignore_z: bool) -> Tensor:
+    """Return what is seen, the object's pose last, with the goal's behind it; its rotation is the nearest alike.
 
-    The goal's quaternion gets the sign that is nearer to the object's: both signs are the same rotation.
+    Args:
+        obs: what is seen.
+        goal: position and quaternion.
+        ignore_z: whether a turn of the object about its own third axis does not count.
     """
-    seen, wanted = obs[..., -QUATERNION_SIZE:], goal[..., -QUATERNION_SIZE:]
-    is_opposite = (seen * wanted).sum(dim=-1, keepdim=True) < 0.0
-    return torch.cat([obs, goal[..., :-QUATERNION_SIZE], torch.where(is_opposite, -wanted, wanted)], dim=-1)
+    nearest = nearest_roll if ignore_z else nearest_sign
+    rotation = nearest(goal[..., -QUATERNION_SIZE:], obs[..., -QUATERNION_SIZE:])
+    return torch.cat([obs, goal[..., :-QUATERNION_SIZE], rotation], dim=-1)
+
+
+def nearest_sign(wanted: Tensor, seen: Tensor) -> Tensor:
+    """Return quaternions `[..., 4]` with the sign that is nearer to those seen: either is the same rotation."""
+    is_opposite = (wanted * seen).sum(dim=-1, keepdim=True) < 0.0
+    return torch.where(is_opposite, -wanted, wanted)
+
+
+def nearest_roll(wanted: Tensor, seen: Tensor) -> Tensor:
+    """Return rotations `[..., 4]`, turned about their own third axis to be as near as can be to those seen.
+
+    The turn is the twist of conj(wanted) * seen. There is none, and all rolls are as far, where the axes are opposite.
+    """
+    w, x, y, z = wanted.unbind(dim=-1)
+    seen_w, seen_x, seen_y, seen_z = seen.unbind(dim=-1)
+    cos = w * seen_w + x * seen_x + y * seen_y + z * seen_z
+    sin = w * seen_z - x * seen_y + y * seen_x - z * seen_w
+    length = torch.hypot(cos, sin)
+    has_twist = length > TWIST_EPS
+    cos = torch.where(has_twist, cos / length, 1.0)
+    sin = torch.where(has_twist, sin / length, 0.0)
+    return torch.stack([w * cos - z * sin, x * cos + y * sin, y * cos - x * sin, z * cos + w * sin], dim=-1)
 
 
 def object_features(state: Tensor, goal: Tensor) -> Tensor:
@@ -92,9 +121,11 @@ def view_of(task: TaskSpec, phase: Phase) -> View:
     """Return how the one who acts in `phase` sees the task."""
     if phase == "locomotion" and task.family != "hand":
         return View(task.object_state_size + 2 * task.goal_size, object_features)
-    signed = isinstance(task.goal, PoseGoal) and task.goal.nearer_sign
+    features = joined_features
+    if isinstance(task.goal, PoseGoal) and task.goal.seen_nearest:
+        features = partial(pose_features, ignore_z=task.goal.ignore_z)
     size = task.obs_size if phase == "manipulation" else task.object_state_size
-    return View(size + task.goal_size, pose_features if signed else joined_features)
+    return View(size + task.goal_size, features)
 
 
 def part_view(task: TaskSpec, part: Part) -> PartView:

@@ -5,12 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import torch
+from scipy.spatial.transform import Rotation
 
 from sldr_core.config import PHASES, Phase, find_task
 from sldr_core.envs import Envs, make_envs
 from sldr_core.envs.fetch import ObjectObserver
 from sldr_core.nets.views import (
     joined_features,
+    nearest_roll,
     object_features,
     part_view,
     pose_features,
@@ -90,26 +92,49 @@ def test_a_goal_is_seen_with_the_sign_that_is_nearer_to_the_object() -> None:
     state = torch.tensor([[0.0, 0.0, 1.0, 2.0, 3.0, 0.8, 0.6, 0.0, 0.0]]).repeat(2, 1)
     goal = torch.tensor([[4.0, 5.0, 6.0, 0.6, 0.0, 0.8, 0.0], [4.0, 5.0, 6.0, -0.6, 0.0, -0.8, 0.0]])
 
-    features = pose_features(state, goal)
+    features = pose_features(state, goal, ignore_z=False)
 
     assert torch.equal(features[0], torch.cat([state[0], goal[0]]))
     assert torch.equal(features[1], features[0])
 
 
+def test_a_pens_goal_is_seen_with_the_roll_that_is_nearest_to_the_object() -> None:
+    """No roll out of very many is nearer, as scipy counts; and where the pen points stays as it was."""
+    drawn = Rotation.random(60, rng=np.random.default_rng(0))
+    wanted, seen = drawn[:30], drawn[30:]
+    rolls = Rotation.from_euler("z", np.linspace(-np.pi, np.pi, 2_001)[:, None])
+
+    quaternions = nearest_roll(_quaternions(wanted), _quaternions(seen))
+
+    nearest = Rotation.from_quat(quaternions.numpy(), scalar_first=True)
+    least = [(seen[index].inv() * wanted[index] * rolls).magnitude().min() for index in range(30)]
+    np.testing.assert_allclose((seen.inv() * nearest).magnitude(), least, atol=2e-3)
+    np.testing.assert_allclose(nearest.apply([0, 0, 1]), wanted.apply([0, 0, 1]), atol=1e-12)
+    assert ((quaternions * _quaternions(seen)).sum(dim=1) >= 0).all()
+
+
+def test_a_pens_goal_on_the_opposite_side_is_seen_as_it_is() -> None:
+    wanted, seen = torch.tensor([[1.0, 0.0, 0.0, 0.0]]), torch.tensor([[0.0, 1.0, 0.0, 0.0]])
+
+    assert torch.equal(nearest_roll(wanted, seen), wanted)
+
+
 @pytest.mark.parametrize("phase", PHASES)
 @pytest.mark.parametrize("task", ["HandBlockRotate", "HandPenRotate"])
-def test_the_hand_is_told_of_a_rotation_and_not_of_its_sign(task: str, phase: Phase) -> None:
-    now = make_envs(task, phase, num_envs=8).observe()
+def test_the_hand_is_told_of_a_rotation_and_not_of_how_it_is_written(task: str, phase: Phase) -> None:
+    envs = make_envs(task, phase, num_envs=8)
+    now = envs.observe()
     obs, goal = torch.from_numpy(now.obs), torch.from_numpy(now.goal)
     flipped = goal * torch.tensor([1, 1, 1, -1, -1, -1, -1])
     view, raw = view_of(find_task(task), phase), view_of(find_task(task, "original"), phase)
 
     seen = view.features(obs, goal)
 
-    assert torch.equal(view.features(obs, flipped), seen)
+    shown = seen[:, -7:].numpy()
+    np.testing.assert_allclose(view.features(obs, flipped), seen, atol=1e-12)
     assert torch.equal(seen[:, :-4], joined_features(obs, goal)[:, :-4])
-    assert torch.equal(seen[:, -4:].abs(), goal[:, -4:].abs())
-    assert ((seen[:, -4:] * torch.from_numpy(now.achieved)[:, 3:]).sum(dim=1) >= 0).all()
+    assert ((shown * now.achieved)[:, 3:].sum(axis=1) >= 0).all()
+    assert envs.success(shown, now.goal).all(), "what is shown is a goal that counts as the same"
     assert torch.equal(raw.features(obs, flipped), joined_features(obs, flipped))
 
 
@@ -117,3 +142,7 @@ def test_a_transition_is_seen_as_the_state_and_its_change() -> None:
     state, next_state = torch.tensor([[1.0, 2.0]]), torch.tensor([[4.0, 8.0]])
 
     assert transition_features(state, next_state).tolist() == [[1, 2, 3, 6]]
+
+
+def _quaternions(rotations: Rotation) -> torch.Tensor:
+    return torch.from_numpy(rotations.as_quat(scalar_first=True))

@@ -76,7 +76,7 @@ def _task(
         lowest_return=0.0 if placed and turned else thing.lowest_return,
         lowest_auxiliary_return=thing.lowest_return,
         parts=parts,
-        original={"goal": {"nearer_sign": False, **({"distance": thing.original_distance} if placed else {})}},
+        original={"goal": {"seen_nearest": False, **({"distance": thing.original_distance} if placed else {})}},
     )
 
 

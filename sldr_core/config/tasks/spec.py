@@ -47,10 +47,10 @@ class PoseGoal:
     """Success: the object is turned less than this from its goal [rad]; a quaternion's sign means nothing."""
     ignore_z: bool = False
     """Whether the third Euler angle is not scored: a pen may turn about its own axis."""
-    nearer_sign: bool = True
-    """Whether networks see the goal's quaternion with the sign that is nearer to the object's; either is the same goal.
+    seen_nearest: bool = True
+    """Whether networks see, of all rotations that count as the goal's, the one that is nearest to the object's.
 
-    Goals of hindsight have the object's own sign, so the other one would hardly be learnt.
+    Goals of hindsight are such: they have the sign of the object's quaternion. Others would hardly be learnt.
     """
 
 
