@@ -23,7 +23,10 @@ POSITION_SIZE = 3
 """Entries of a position, of Euler angles, of a velocity."""
 
 QUATERNION_SIZE = 4
-"""Entries of a rotation, the last ones of a pose."""
+"""Entries of a rotation."""
+
+POSE_SIZE = POSITION_SIZE + QUATERNION_SIZE
+"""Entries of an object's pose, the last ones of what the hand or its object sees."""
 
 TWIST_EPS = 1e-6
 """Twists of less than this are none."""
@@ -55,17 +58,21 @@ def joined_features(obs: Tensor, goal: Tensor) -> Tensor:
     return torch.cat([obs, goal], dim=-1)
 
 
-def pose_features(obs: Tensor, goal: Tensor, ignore_z: bool) -> Tensor:
-    """Return what is seen, the object's pose last, with the goal's behind it; its rotation is the nearest alike.
+def nearest_features(obs: Tensor, goal: Tensor, criterion: PoseGoal) -> Tensor:
+    """Return what is seen, the object's pose last, and behind it, of all poses that count as the goal, the nearest.
 
     Args:
         obs: what is seen.
-        goal: position and quaternion.
-        ignore_z: whether a turn of the object about its own third axis does not count.
+        goal: the wanted pose: position and quaternion.
+        criterion: what of a pose counts.
     """
-    nearest = nearest_roll if ignore_z else nearest_sign
-    rotation = nearest(goal[..., -QUATERNION_SIZE:], obs[..., -QUATERNION_SIZE:])
-    return torch.cat([obs, goal[..., :-QUATERNION_SIZE], rotation], dim=-1)
+    position, rotation = obs[..., -POSE_SIZE:].split((POSITION_SIZE, QUATERNION_SIZE), dim=-1)
+    if criterion.distance is not None:
+        position = goal[..., :POSITION_SIZE]
+    if criterion.angle is not None:
+        nearest = nearest_roll if criterion.ignore_z else nearest_sign
+        rotation = nearest(goal[..., POSITION_SIZE:], rotation)
+    return torch.cat([obs, position, rotation], dim=-1)
 
 
 def nearest_sign(wanted: Tensor, seen: Tensor) -> Tensor:
@@ -123,7 +130,7 @@ def view_of(task: TaskSpec, phase: Phase) -> View:
         return View(task.object_state_size + 2 * task.goal_size, object_features)
     features = joined_features
     if isinstance(task.goal, PoseGoal) and task.goal.seen_nearest:
-        features = partial(pose_features, ignore_z=task.goal.ignore_z)
+        features = partial(nearest_features, criterion=task.goal)
     size = task.obs_size if phase == "manipulation" else task.object_state_size
     return View(size + task.goal_size, features)
 

@@ -48,9 +48,10 @@ class PoseGoal:
     ignore_z: bool = False
     """Whether the third Euler angle is not scored: a pen may turn about its own axis."""
     seen_nearest: bool = True
-    """Whether networks see, of all rotations that count as the goal's, the one that is nearest to the object's.
+    """Whether networks see, of all poses that count as the goal, the one that is nearest to the object.
 
-    Goals of hindsight are such: they have the sign of the object's quaternion. Others would hardly be learnt.
+    Goals of hindsight have the sign of the object's quaternion and are near in what does not count; others would hardly
+    be learnt.
     """
 
 
