@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import json
+import shutil
 import time
 from contextlib import closing
 from pathlib import Path
+from zipfile import ZipFile
 
 import httpx
 import pytest
@@ -13,13 +16,14 @@ from store_engines import SqliteStores
 from study_file_cases import members_of, trained_study
 
 from backend.api.routes import study_files
-from backend.samples import SAMPLE_VARIABLE, SHIPPED
+from backend.samples import SAMPLE_VARIABLE
 from backend.store.database import open_database
 from backend.store.settings import Settings
 from backend.store.study_files.packing import pack_study
+from backend.store.study_files.records import STUDY_MEMBER
 
 LARGEST_SAMPLE = 15_000_000
-"""What the sample study may take [bytes]."""
+"""What the sample studies may take together [bytes]."""
 
 PATIENCE_S = 20.0
 """How long files that are done with may still lie there [s]."""
@@ -97,22 +101,47 @@ def test_the_sample_is_opened_in_one_step(
 ) -> None:
     monkeypatch.setenv(SAMPLE_VARIABLE, str(exported))
 
-    assert client.get("/api/study-files/sample").json() == {"size": exported.stat().st_size}
-    opened = client.post("/api/study-files/sample").json()
+    assert client.get("/api/study-files/sample").json() == {"files": 1, "size": exported.stat().st_size}
+    (opened,) = client.post("/api/study-files/sample").json()["studies"]
 
     assert client.get(f"/api/studies/{opened['study_id']}").status_code == 200
-    assert client.post("/api/study-files/sample").json() == {**opened, "already_there": True}
+    assert client.post("/api/study-files/sample").json() == {"studies": [{**opened, "already_there": True}]}
+
+
+def test_all_samples_of_a_directory_are_opened(
+    client: httpx.Client, exported: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The second file holds the study of the first under another name."""
+    with ZipFile(exported) as archive, ZipFile(tmp_path / "b.zip", "w") as renamed:
+        for name in archive.namelist():
+            content = archive.read(name)
+            if name == STUDY_MEMBER:
+                told = json.loads(content)
+                told["study"]["name"] = "another"
+                content = json.dumps(told).encode()
+            renamed.writestr(name, content)
+    shutil.copy(exported, tmp_path / "a.zip")
+    monkeypatch.setenv(SAMPLE_VARIABLE, str(tmp_path))
+
+    assert client.get("/api/study-files/sample").json()["files"] == 2
+    opened = client.post("/api/study-files/sample").json()["studies"]
+
+    assert len({study["study_id"] for study in opened}) == 2
+    assert {study["runs"] for study in opened} == {5}
 
 
 def test_without_a_sample_none_is_offered(client: httpx.Client, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv(SAMPLE_VARIABLE, "/nonexistent")
 
-    assert client.get("/api/study-files/sample").json() == {"size": None}
+    assert client.get("/api/study-files/sample").json() == {"files": 0, "size": 0}
     assert client.post("/api/study-files/sample").status_code == 404
 
 
-@pytest.mark.skipif(not SHIPPED.is_file(), reason="no sample study is shipped yet")
-def test_the_shipped_sample_is_small_and_opens(client: httpx.Client, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_shipped_samples_are_small_and_open(client: httpx.Client, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv(SAMPLE_VARIABLE)
-    assert SHIPPED.stat().st_size <= LARGEST_SAMPLE
-    assert client.post("/api/study-files/sample").status_code == 200
+
+    told = client.get("/api/study-files/sample").json()
+    opened = client.post("/api/study-files/sample").json()["studies"]
+
+    assert told["size"] <= LARGEST_SAMPLE
+    assert len(opened) == told["files"] > 0

@@ -1,4 +1,4 @@
-"""Studies as files: taking one along, taking one in, and opening the one that comes with the product."""
+"""Studies as files: taking one along, taking one in, and opening those that come with the product."""
 
 from __future__ import annotations
 
@@ -8,13 +8,14 @@ from typing import Any, BinaryIO
 
 from fastapi import APIRouter, BackgroundTasks, Request
 from fastapi.responses import FileResponse
+from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
 from backend.api.access.declarations import needs
 from backend.api.dependencies import ServiceSettings, Store
 from backend.api.errors import ApiError, problem_responses
 from backend.api.schemas import Strict
-from backend.samples import sample_study
+from backend.samples import sample_studies
 from backend.store.study_files.packing import pack_study
 from backend.store.study_files.placing import LARGEST_STUDY_FILE, Imported, import_study
 
@@ -41,28 +42,36 @@ class StudyImport(Strict):
     already_there: bool
 
 
-class SampleStudy(Strict):
-    """Whether a study with real results comes with the product."""
+class SampleStudies(Strict):
+    """The studies with real results that come with the product."""
 
-    size: int | None
+    files: int
+    size: int = Field(description="Of all files together, in bytes.")
+
+
+class SampleImport(Strict):
+    """What opening the sample studies has done."""
+
+    studies: list[StudyImport]
 
 
 @router.get("/sample", responses=problem_responses())
 @needs("viewer")
-def get_sample_study() -> SampleStudy:
-    """Tell whether a sample study comes with the product, and how large its file is in bytes."""
-    path = sample_study()
-    return SampleStudy(size=None if path is None else path.stat().st_size)
+def get_sample_studies() -> SampleStudies:
+    """Tell how many sample studies come with the product, and how large their files are."""
+    sizes = [path.stat().st_size for path in sample_studies()]
+    return SampleStudies(files=len(sizes), size=sum(sizes))
 
 
 @router.post("/sample", responses=problem_responses(403, 404, 422))
 @needs("operator")
-def open_sample_study(store: Store, settings: ServiceSettings) -> StudyImport:
-    """Take in the sample study; asked again, it is the same one."""
-    path = sample_study()
-    if path is None:
+def open_sample_studies(store: Store, settings: ServiceSettings) -> SampleImport:
+    """Take in the sample studies; asked again, they are the same ones."""
+    paths = sample_studies()
+    if not paths:
         raise ApiError(404, "No sample study comes with this version; launch one of the templates instead.")
-    return _answer(import_study(store, settings, path, "The sample study"))
+    imports = [_answer(import_study(store, settings, path, f"The sample study {path.name}")) for path in paths]
+    return SampleImport(studies=imports)
 
 
 @router.post(

@@ -28,11 +28,19 @@ test('without studies, the page says what to do and offers two minutes', async (
 
 test('a sample study that comes with the product is opened with one click', async () => {
   server.on('GET /api/studies', () => ({ body: { studies: [] } }));
-  server.on('GET /api/study-files/sample', () => ({ body: { size: 9_000_000 } }));
-  server.on('POST /api/study-files/sample', () => ({ body: { study_id: 'study-1', runs: 40, already_there: false } }));
+  server.on('GET /api/study-files/sample', () => ({ body: { files: 1, size: 9_000_000 } }));
+  server.on('POST /api/study-files/sample', () => ({ body: { studies: [imported('study-1')] } }));
   const { user, router } = openPage('/studies');
   await user.click(await screen.findByRole('button', { name: 'Open the sample study' }));
   await waitFor(() => expect(router.state.location.pathname).toBe('/studies/study-1'));
+});
+
+test('several sample studies are opened with one click too, and stand in the list', async () => {
+  server.on('GET /api/study-files/sample', () => ({ body: { files: 2, size: 9_000_000 } }));
+  server.on('POST /api/study-files/sample', () => ({ body: { studies: [imported('study-1'), imported('study-2')] } }));
+  const { user, router } = openPage('/');
+  await user.click(await screen.findByRole('button', { name: 'Open the sample studies' }));
+  await waitFor(() => expect(router.state.location.pathname).toBe('/studies'));
 });
 
 test('without runs, the runs page offers the same', async () => {
@@ -107,3 +115,7 @@ test('a study that does not exist gets one clear sentence', async () => {
   openPage('/studies/nope');
   expect(await screen.findByText("There is no study 'nope'.")).toBeTruthy();
 });
+
+function imported(study_id: string) {
+  return { study_id, runs: 40, already_there: false };
+}

@@ -1200,16 +1200,16 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * Get Sample Study
-         * @description Tell whether a sample study comes with the product, and how large its file is in bytes.
+         * Get Sample Studies
+         * @description Tell how many sample studies come with the product, and how large their files are.
          */
-        get: operations["get_sample_study"];
+        get: operations["get_sample_studies"];
         put?: never;
         /**
-         * Open Sample Study
-         * @description Take in the sample study; asked again, it is the same one.
+         * Open Sample Studies
+         * @description Take in the sample studies; asked again, they are the same ones.
          */
-        post: operations["open_sample_study"];
+        post: operations["open_sample_studies"];
         delete?: never;
         options?: never;
         head?: never;
@@ -3464,12 +3464,25 @@ export interface components {
             task: string;
         };
         /**
-         * SampleStudy
-         * @description Whether a study with real results comes with the product.
+         * SampleImport
+         * @description What opening the sample studies has done.
          */
-        SampleStudy: {
-            /** Size */
-            size: number | null;
+        SampleImport: {
+            /** Studies */
+            studies: components["schemas"]["StudyImport"][];
+        };
+        /**
+         * SampleStudies
+         * @description The studies with real results that come with the product.
+         */
+        SampleStudies: {
+            /** Files */
+            files: number;
+            /**
+             * Size
+             * @description Of all files together, in bytes.
+             */
+            size: number;
         };
         /**
          * SavedView
@@ -4492,7 +4505,8 @@ export type RunGroups = components['schemas']['RunGroups'];
 export type RunPage = components['schemas']['RunPage'];
 export type RunState = components['schemas']['RunState'];
 export type RunSummary = components['schemas']['RunSummary'];
-export type SampleStudy = components['schemas']['SampleStudy'];
+export type SampleImport = components['schemas']['SampleImport'];
+export type SampleStudies = components['schemas']['SampleStudies'];
 export type SavedView = components['schemas']['SavedView'];
 export type SavedViews = components['schemas']['SavedViews'];
 export type SeedReach = components['schemas']['SeedReach'];
@@ -10424,7 +10438,7 @@ export interface operations {
             };
         };
     };
-    get_sample_study: {
+    get_sample_studies: {
         parameters: {
             query?: never;
             header?: never;
@@ -10439,7 +10453,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["SampleStudy"];
+                    "application/json": components["schemas"]["SampleStudies"];
                 };
             };
             /** @description Nobody is signed in. */
@@ -10489,7 +10503,7 @@ export interface operations {
             };
         };
     };
-    open_sample_study: {
+    open_sample_studies: {
         parameters: {
             query?: never;
             header?: never;
@@ -10504,7 +10518,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["StudyImport"];
+                    "application/json": components["schemas"]["SampleImport"];
                 };
             };
             /** @description Nobody is signed in. */

@@ -1,13 +1,13 @@
-/** The button that opens the study that comes with the product, with real results; none if none comes with it. */
+/** The button that opens the studies that come with the product, with real results; none if none comes with it. */
 import { Button } from '@mantine/core';
 import { queryOptions, useMutation, useQuery, useQueryClient } from '@tanstack/react-query';
 import { useNavigate } from '@tanstack/react-router';
 import { useMay } from '@/lib/access';
 import { client, sentence, unwrap } from '@/lib/api';
 
-/** Whether there is one; it changes only with the server's version. */
+/** How many there are; it changes only with the server's version. */
 const sampleQuery = queryOptions({
-  queryKey: ['sample-study'],
+  queryKey: ['sample-studies'],
   queryFn: ({ signal }) => unwrap(client.GET('/api/study-files/sample', { signal })),
   staleTime: Number.POSITIVE_INFINITY,
 });
@@ -19,12 +19,14 @@ export function OpenSample() {
   const isMine = useMay('operator');
   const opening = useMutation({
     mutationFn: () => unwrap(client.POST('/api/study-files/sample')),
-    onSuccess: async ({ study_id }) => {
+    onSuccess: async ({ studies }) => {
       await Promise.all([['studies'], ['runs']].map((queryKey) => queries.invalidateQueries({ queryKey })));
-      await navigate({ to: '/studies/$studyId', params: { studyId: study_id } });
+      const [first, ...others] = studies;
+      if (first === undefined || others.length > 0) await navigate({ to: '/studies' });
+      else await navigate({ to: '/studies/$studyId', params: { studyId: first.study_id } });
     },
   });
-  if (!data || data.size === null || !isMine) return null;
+  if (!data || data.files === 0 || !isMine) return null;
   return (
     <>
       <Button
@@ -34,7 +36,7 @@ export function OpenSample() {
         title="Real results, made with this product: look at curves, statistics and 3D before you train anything."
         onClick={() => opening.mutate()}
       >
-        Open the sample study
+        {data.files === 1 ? 'Open the sample study' : 'Open the sample studies'}
       </Button>
       {opening.error && (
         <p className="problem" role="alert">

@@ -17,7 +17,7 @@ export function startServer(): FakeServer {
     .on('GET /api/auth/me', () => ({ body: { mode: 'token', caller: LOCAL, message: null } }))
     .on('GET /api/choices', () => ({ body: CHOICES }))
     .on('GET /api/defaults', () => ({ body: DEFAULTS }))
-    .on('GET /api/study-files/sample', () => ({ body: { size: null } }))
+    .on('GET /api/study-files/sample', () => ({ body: { files: 0, size: 0 } }))
     .on('GET /api/studies/templates', () => ({ body: { templates: [TEMPLATE] } }))
     .on('GET /api/runs', () => ({ body: { runs: [], values: [], next_cursor: null, total: 0 } }))
     .on('GET /api/tags', () => ({ body: { tags: [] } }))

@@ -59,7 +59,7 @@ class Chosen:
     phase: Phase = "manipulation"
     """Which training."""
     study_file: Annotated[Path | None, tyro.conf.arg(metavar="FILE", help_behavior_hint="")] = None
-    """Take the runs of this study file instead; "sample" is the one that comes with the product."""
+    """Take the runs of this study file instead; "sample" stands for those that come with the product."""
     server: Server = None
     """The service that has them, as http://127.0.0.1:8000 (default: SLDR_URL, else the store of this machine)."""
 
