@@ -14,6 +14,8 @@ pytestmark = pytest.mark.browser
 
 SOON_MS = 30_000
 """The page shows what it has been asked for by then, even on a busy machine [ms]."""
+DRAWN_MS = 150_000
+"""A 3D scene is there by then, drawn without a graphics card beside other tests [ms]."""
 PATIENCE = 40
 """Looks at the 3D scene, a second apart, until it is drawn and has moved."""
 DRAWN_BYTES = 20_000
@@ -88,7 +90,7 @@ def test_the_policy_moves_in_3d(run_address: str, page: Page) -> None:
     page.get_by_role("button", name="Watch the newest policy").click()
     scene = page.frame_locator("iframe[title='3D view']")
     canvas = scene.locator("canvas").first
-    expect(canvas).to_be_visible(timeout=2 * SOON_MS)
+    expect(canvas).to_be_visible(timeout=DRAWN_MS)
     box = page.locator("iframe[title='3D view']").bounding_box()
     assert box is not None
     # Software rendering draws a few frames a second: wait for pictures, never for a number of frames.
