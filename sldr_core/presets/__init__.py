@@ -42,17 +42,19 @@ class Preset:
     """Settings of manipulation runs."""
     locomotion: Settings
     """Settings of locomotion runs."""
-    epochs: Literal["paper", "quick"] = "paper"
-    """Which of a task's numbers of epochs it begins with."""
+    numbers: Literal["paper", "quick"] = "paper"
+    """Which of a task's epochs and discounts it begins with."""
 
 
 QUICK_AGENT: Settings = {
     "hidden_sizes": [128, 128, 128],
-    "gamma": 0.95,
     "lowest_return": 0.0,
     "lowest_auxiliary_return": 0.0,
 }
-"""Small nets that two cores can train, and a horizon that values spread over within minutes."""
+"""Small nets that two cores can train."""
+
+QUICK_GAMMA = 0.95
+"""A horizon that values spread over within minutes."""
 
 SMOKE_CURRICULUM: Settings = {"group_size": 32, "candidates": 16, "kept": 8}
 """Groups that a small batch has room for, in the usual proportions."""
@@ -90,7 +92,7 @@ PRESETS: dict[str, Preset] = {
                 },
                 "agent": QUICK_AGENT,
             },
-            epochs="quick",
+            numbers="quick",
         ),
         Preset(
             name="paper",
@@ -166,7 +168,8 @@ def make_config(
     settings: Settings = {"task": task, "phase": phase, "method": method, "seed": seed}
     spec, budget = find_task(task, _variant_in(overrides)), find_preset(preset)
     _merge(settings, _task_settings(spec, phase))
-    _merge(settings, {"loop": {"epochs": _epochs(spec, phase, budget)}})
+    epochs, gamma = _epochs_and_gamma(spec, phase, budget)
+    _merge(settings, {"loop": {"epochs": epochs}, "agent": {"gamma": gamma}})
     _merge(settings, {"replay": {"relabel_probability": find_method(method).relabel_probability}})
     _merge(settings, getattr(budget, phase))
     _merge(settings, overrides or {})
@@ -217,18 +220,20 @@ def _variant_in(overrides: Settings | None) -> Variant:
 
 def _task_settings(task: TaskSpec, phase: Phase) -> Settings:
     if phase == "locomotion":
-        return {
-            "agent": {"gamma": task.locomotion_gamma},
-            "exploration": {"random_action_probability": 0.2, "noise_std": 0.05},
-        }
-    returns = {"lowest_return": task.lowest_return, "lowest_auxiliary_return": task.lowest_auxiliary_return}
-    return {"agent": {"gamma": task.gamma, **returns}}
+        return {"exploration": {"random_action_probability": 0.2, "noise_std": 0.05}}
+    return {"agent": {"lowest_return": task.lowest_return, "lowest_auxiliary_return": task.lowest_auxiliary_return}}
 
 
-def _epochs(task: TaskSpec, phase: Phase, preset: Preset) -> int:
-    if preset.epochs == "quick":
-        return task.quick_locomotion_epochs if phase == "locomotion" else task.quick_epochs
-    return task.paper_locomotion_epochs if phase == "locomotion" else task.paper_epochs
+def _epochs_and_gamma(task: TaskSpec, phase: Phase, preset: Preset) -> tuple[int, float]:
+    match preset.numbers, phase:
+        case "paper", "manipulation":
+            return task.paper_epochs, task.gamma
+        case "paper", "locomotion":
+            return task.paper_locomotion_epochs, task.locomotion_gamma
+        case "quick", "manipulation":
+            return task.quick_epochs, QUICK_GAMMA
+        case "quick", "locomotion":
+            return task.quick_locomotion_epochs, task.quick_locomotion_gamma
 
 
 def _merge(settings: Settings, changes: Settings, path: str = "") -> None:

@@ -187,7 +187,8 @@ def test_task_then_method_then_preset_then_overrides_decide() -> None:
     config = make_config("FetchPush", "locomotion", "ddpg", 5, "quick", {"loop": {"epochs": 3}})
 
     assert (config.task, config.phase, config.method, config.seed) == ("FetchPush", "locomotion", "ddpg", 5)
-    assert config.agent.gamma == PRESETS["quick"].locomotion["agent"]["gamma"]
+    assert config.agent.gamma == task.quick_locomotion_gamma == 0.95
+    assert config.agent.hidden_sizes == (128, 128, 128)
     assert config.exploration.noise_std == 0.05
     assert config.replay.relabel_probability == METHODS["ddpg"].relabel_probability == 0.0
     assert config.loop.batch_size == PRESETS["quick"].locomotion["loop"]["batch_size"]
@@ -195,6 +196,8 @@ def test_task_then_method_then_preset_then_overrides_decide() -> None:
     assert make_config("FetchPush", "locomotion", "her", 0, "quick").loop.epochs == task.quick_locomotion_epochs == 10
     assert make_config("FetchPush", "manipulation", "her", 0, "quick").loop.epochs == task.quick_epochs == 15
     assert make_config("FetchSlide", "manipulation", "her", 0, "quick").loop.epochs == 40
+    assert make_config("HandPenRotate", "locomotion", "her", 0, "quick").agent.gamma == 0.98
+    assert make_config("HandPenRotate", "manipulation", "her", 0, "quick").agent.gamma == 0.95
     paper = make_config("FetchPush", "locomotion", "her", 0, "paper")
     assert (paper.loop.epochs, paper.agent.gamma) == (task.paper_locomotion_epochs, task.locomotion_gamma)
 

@@ -223,6 +223,8 @@ class TaskSpec:
     """Epochs of a manipulation run of the preset `quick`, at most: it ends once the robot has learnt."""
     quick_locomotion_epochs: int = 40
     """Epochs of a locomotion run of the preset `quick`, at most."""
+    quick_locomotion_gamma: float = 0.95
+    """Discount of a locomotion run of the preset `quick`: a short horizon is soon learnt, if it reaches the goals."""
     gamma: float
     """Discount of the manipulation phase."""
     locomotion_gamma: float
