@@ -28,9 +28,6 @@ QUATERNION_SIZE = 4
 POSE_SIZE = POSITION_SIZE + QUATERNION_SIZE
 """Entries of an object's pose, the last ones of what the hand or its object sees."""
 
-TWIST_EPS = 1e-6
-"""Twists of less than this are none."""
-
 HAND_ROBOT_SIZE = 48
 """Entries of the hand's own joints, before the object's in an observation: 24 positions, 24 velocities."""
 
@@ -61,6 +58,9 @@ def joined_features(obs: Tensor, goal: Tensor) -> Tensor:
 def nearest_features(obs: Tensor, goal: Tensor, criterion: PoseGoal) -> Tensor:
     """Return what is seen, the object's pose last, and behind it, of all poses that count as the goal, the nearest.
 
+    A pen's roll is left as it is wanted: where it does not count, the nearest roll jumps when the pen points away, and
+    those goals were not learnt.
+
     Args:
         obs: what is seen.
         goal: the wanted pose: position and quaternion.
@@ -70,8 +70,7 @@ def nearest_features(obs: Tensor, goal: Tensor, criterion: PoseGoal) -> Tensor:
     if criterion.distance is not None:
         position = goal[..., :POSITION_SIZE]
     if criterion.angle is not None:
-        nearest = nearest_roll if criterion.ignore_z else nearest_sign
-        rotation = nearest(goal[..., POSITION_SIZE:], rotation)
+        rotation = nearest_sign(goal[..., POSITION_SIZE:], rotation)
     return torch.cat([obs, position, rotation], dim=-1)
 
 
@@ -79,22 +78,6 @@ def nearest_sign(wanted: Tensor, seen: Tensor) -> Tensor:
     """Return quaternions `[..., 4]` with the sign that is nearer to those seen: either is the same rotation."""
     is_opposite = (wanted * seen).sum(dim=-1, keepdim=True) < 0.0
     return torch.where(is_opposite, -wanted, wanted)
-
-
-def nearest_roll(wanted: Tensor, seen: Tensor) -> Tensor:
-    """Return rotations `[..., 4]`, turned about their own third axis to be as near as can be to those seen.
-
-    The turn is the twist of conj(wanted) * seen. There is none, and all rolls are as far, where the axes are opposite.
-    """
-    w, x, y, z = wanted.unbind(dim=-1)
-    seen_w, seen_x, seen_y, seen_z = seen.unbind(dim=-1)
-    cos = w * seen_w + x * seen_x + y * seen_y + z * seen_z
-    sin = w * seen_z - x * seen_y + y * seen_x - z * seen_w
-    length = torch.hypot(cos, sin)
-    has_twist = length > TWIST_EPS
-    cos = torch.where(has_twist, cos / length, 1.0)
-    sin = torch.where(has_twist, sin / length, 0.0)
-    return torch.stack([w * cos - z * sin, x * cos + y * sin, y * cos - x * sin, z * cos + w * sin], dim=-1)
 
 
 def object_features(state: Tensor, goal: Tensor) -> Tensor:

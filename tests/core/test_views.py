@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import torch
-from scipy.spatial.transform import Rotation
 
 from sldr_core.config import PHASES, Phase, PoseGoal, find_task
 from sldr_core.envs import Envs, make_envs
@@ -13,7 +12,6 @@ from sldr_core.envs.fetch import ObjectObserver
 from sldr_core.nets.views import (
     joined_features,
     nearest_features,
-    nearest_roll,
     object_features,
     part_view,
     transition_features,
@@ -109,27 +107,6 @@ def test_what_does_not_count_of_a_goal_is_seen_as_the_object_has_it() -> None:
     assert torch.equal(moved, torch.cat([state, goal[:3], state[5:]]))
 
 
-def test_a_pens_goal_is_seen_with_the_roll_that_is_nearest_to_the_object() -> None:
-    """No roll out of very many is nearer, as scipy counts; and where the pen points stays as it was."""
-    drawn = Rotation.random(60, rng=np.random.default_rng(0))
-    wanted, seen = drawn[:30], drawn[30:]
-    rolls = Rotation.from_euler("z", np.linspace(-np.pi, np.pi, 2_001)[:, None])
-
-    quaternions = nearest_roll(_quaternions(wanted), _quaternions(seen))
-
-    nearest = Rotation.from_quat(quaternions.numpy(), scalar_first=True)
-    least = [(seen[index].inv() * wanted[index] * rolls).magnitude().min() for index in range(30)]
-    np.testing.assert_allclose((seen.inv() * nearest).magnitude(), least, atol=2e-3)
-    np.testing.assert_allclose(nearest.apply([0, 0, 1]), wanted.apply([0, 0, 1]), atol=1e-12)
-    assert ((quaternions * _quaternions(seen)).sum(dim=1) >= 0).all()
-
-
-def test_a_pens_goal_on_the_opposite_side_is_seen_as_it_is() -> None:
-    wanted, seen = torch.tensor([[1.0, 0.0, 0.0, 0.0]]), torch.tensor([[0.0, 1.0, 0.0, 0.0]])
-
-    assert torch.equal(nearest_roll(wanted, seen), wanted)
-
-
 @pytest.mark.parametrize("task", ["HandBlockRotate", "HandPenRotate", "HandEggTranslate", "HandPenFull"])
 def test_what_the_hand_or_its_object_is_shown_counts_as_the_goal_and_is_nearer(task: str) -> None:
     spec = find_task(task)
@@ -159,7 +136,3 @@ def test_a_transition_is_seen_as_the_state_and_its_change() -> None:
     state, next_state = torch.tensor([[1.0, 2.0]]), torch.tensor([[4.0, 8.0]])
 
     assert transition_features(state, next_state).tolist() == [[1, 2, 3, 6]]
-
-
-def _quaternions(rotations: Rotation) -> torch.Tensor:
-    return torch.from_numpy(rotations.as_quat(scalar_first=True))
