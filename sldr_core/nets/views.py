@@ -58,8 +58,7 @@ def joined_features(obs: Tensor, goal: Tensor) -> Tensor:
 def nearest_features(obs: Tensor, goal: Tensor, criterion: PoseGoal) -> Tensor:
     """Return what is seen, the object's pose last, and behind it, of all poses that count as the goal, the nearest.
 
-    A pen's roll is left as it is wanted: where it does not count, the nearest roll jumps when the pen points away, and
-    those goals were not learnt.
+    A pen's roll is left as it is wanted, also where it does not count: the nearest roll was learnt no better.
 
     Args:
         obs: what is seen.
