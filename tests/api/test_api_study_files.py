@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import shutil
-import time
 from contextlib import closing
 from pathlib import Path
 from zipfile import ZipFile
@@ -12,6 +11,7 @@ from zipfile import ZipFile
 import httpx
 import pytest
 from live_api import Service
+from other_processes import wait_until
 from store_engines import SqliteStores
 from study_file_cases import members_of, trained_study
 
@@ -24,9 +24,6 @@ from backend.store.study_files.records import STUDY_MEMBER
 
 LARGEST_SAMPLE = 15_000_000
 """What the sample studies may take together [bytes]."""
-
-PATIENCE_S = 20.0
-"""How long files that are done with may still lie there [s]."""
 
 
 @pytest.fixture(scope="module")
@@ -47,14 +44,9 @@ def upload(client: httpx.Client, content: bytes):
     return client.post("/api/study-files", content=content, headers={"content-type": "application/zip"})
 
 
-def wait_for_no_leftovers(home: Path) -> list[str]:
-    """Return what of uploads and downloads still lies in a home after a while: the last goes when it has been sent."""
-    given_up = time.monotonic() + PATIENCE_S
-    while left := [path.name for path in home.iterdir() if path.name.startswith((".upload", ".study"))]:
-        if time.monotonic() > given_up:
-            break
-        time.sleep(0.05)
-    return left
+def leftovers(home: Path) -> list[str]:
+    """Return what of uploads and downloads still lies in a home; the last goes when it has been sent."""
+    return [path.name for path in home.iterdir() if path.name.startswith((".upload", ".study"))]
 
 
 def test_a_study_goes_in_and_out(client: httpx.Client, exported: Path, settings: Settings, tmp_path: Path) -> None:
@@ -75,7 +67,7 @@ def test_a_study_goes_in_and_out(client: httpx.Client, exported: Path, settings:
     assert out.headers["content-type"] == "application/zip"
     assert len(members_of(tmp_path / "out.zip")) == len(members_of(exported))
     assert upload(client, exported.read_bytes()).json()["already_there"]
-    assert wait_for_no_leftovers(settings.home) == []
+    wait_until(lambda: not leftovers(settings.home), otherwise="uploads or downloads were left there")
 
 
 @pytest.mark.parametrize("content", [b"", b"PK\x03\x04", b"{}"], ids=["empty", "cut", "text"])

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import time
 from typing import Any
 
 import httpx
 import pytest
+from other_processes import wait_until
 from playwright.sync_api import Page, expect
 from signed_in import credentials, get
 
@@ -38,10 +38,7 @@ def run_id(product: str) -> str:
 
 def wait_for_progress(product: str, run_id: str) -> None:
     """Wait until a run has trained a cycle."""
-    give_up_at = time.monotonic() + TRAINED_MS / 1000
-    while get(product, f"/api/runs/{run_id}")["progress"] is None:
-        assert time.monotonic() < give_up_at, "the run reported no progress"
-        time.sleep(0.1)
+    wait_until(lambda: get(product, f"/api/runs/{run_id}")["progress"] is not None, TRAINED_MS / 1000)
 
 
 def attempts_of(product: str, run_id: str) -> list[dict[str, Any]]:

@@ -8,12 +8,13 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import httpx
 import psutil
 import pytest
+from other_processes import is_running, wait_until
 
 from worker.cli import children
 from worker.cli.children import Child
@@ -27,19 +28,6 @@ STUBBORN = (
     "import signal, time; signal.signal(signal.SIGTERM, signal.SIG_IGN); print('deaf', flush=True); time.sleep(60)",
 )
 PATIENCE_S = 60.0
-
-
-def wait_for(condition: Callable[[], bool], patience_s: float = PATIENCE_S) -> None:
-    """Wait until something is so."""
-    deadline = time.monotonic() + patience_s
-    while not condition():
-        assert time.monotonic() < deadline, "it did not happen in time"
-        time.sleep(0.02)
-
-
-def is_running(pid: int) -> bool:
-    """Tell whether a process is there and no zombie."""
-    return psutil.pid_exists(pid) and psutil.Process(pid).status() != psutil.STATUS_ZOMBIE
 
 
 @pytest.fixture
@@ -68,7 +56,7 @@ def test_a_child_that_is_killed_is_started_again(sleeper: Child, told: list[str]
         sleeper.keep_alive(told.append)
         return sleeper.pid not in (first, None)
 
-    wait_for(is_back)
+    wait_until(is_back)
     assert told == ["The sleeper was ended by SIGKILL; starting it again in 0.05 s."]
 
 
@@ -80,7 +68,7 @@ def test_a_child_that_dies_again_and_again_waits_longer_each_time(told: list[str
         child.keep_alive(told.append)
         return len(told) == 3
 
-    wait_for(died_thrice)
+    wait_until(died_thrice)
     assert told[2] == "The failing one ended with exit code 3; starting it again in 0.04 s."
     assert child.deaths_in_youth == 3
 
@@ -109,7 +97,7 @@ def test_children_do_not_outlive_a_parent_that_is_killed():
         orphan = int(parent.stdout.readline())
         assert is_running(orphan)
         parent.kill()
-    wait_for(lambda: not is_running(orphan), patience_s=5)
+    wait_until(lambda: not is_running(orphan), patience_s=5)
 
 
 @pytest.fixture
@@ -159,7 +147,7 @@ def test_the_service_starts_heals_and_ends_as_one(tmp_path: Path, free_port: int
         greeting = serving.stdout.readline()
         assert greeting.startswith(f"SLDR is at {address}/?token="), (tmp_path / "errors").read_text()
         client.get(greeting.split()[3], follow_redirects=True)  # as a person does; the cookie stays with the client
-        wait_for(lambda: client.get(f"{address}/healthz").json()["status"] == "ok")
+        wait_until(lambda: client.get(f"{address}/healthz").json()["status"] == "ok")
 
         second = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=PATIENCE_S)
         assert (second.returncode, len(second.stderr.splitlines())) == (2, 1)
@@ -167,10 +155,10 @@ def test_the_service_starts_heals_and_ends_as_one(tmp_path: Path, free_port: int
 
         [worker] = client.get(f"{address}/api/workers").json()["workers"]
         os.kill(worker["pid"], signal.SIGKILL)
-        wait_for(lambda: len(client.get(f"{address}/api/workers").json()["workers"]) == 2)
+        wait_until(lambda: len(client.get(f"{address}/api/workers").json()["workers"]) == 2)
 
         family = psutil.Process(serving.pid).children(recursive=True)
         serving.terminate()
         assert serving.wait(PATIENCE_S) == 0
         watchdog.cancel()
-    wait_for(lambda: not any(is_running(process.pid) for process in family))
+    wait_until(lambda: not any(is_running(process.pid) for process in family))

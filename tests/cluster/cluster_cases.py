@@ -5,13 +5,13 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 import psutil
+from other_processes import is_running, wait_until
 
 from backend.store.claims import Claim
 from backend.store.database import Database
@@ -96,14 +96,6 @@ def begin(db: Database, executor: Executor, overrides: Mapping[str, Any] | None 
     return claimed, executor.start(claimed)
 
 
-def wait_until(is_so: Callable[[], bool], patience_s: float = PATIENCE_S) -> None:
-    """Wait for something to come true."""
-    deadline = time.monotonic() + patience_s
-    while not is_so():
-        assert time.monotonic() < deadline, "it did not come true in time"
-        time.sleep(0.05)
-
-
 def wait_for_end(child: Child) -> int:
     """Wait, without waiting for it, until a child has ended; return its exit status."""
     wait_until(lambda: child.poll() is not None)
@@ -118,11 +110,6 @@ def wait_for_cycles(db: Database, run_id: str, child: Child, cycles: int = 1) ->
         return max(read_metrics(db, run_id).step, default=0) >= cycles
 
     wait_until(counted)
-
-
-def is_running(pid: int) -> bool:
-    """Tell whether a process is there and no zombie."""
-    return psutil.pid_exists(pid) and psutil.Process(pid).status() != psutil.STATUS_ZOMBIE
 
 
 def process_of(settings: Settings, run_id: str) -> int:

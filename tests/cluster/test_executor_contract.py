@@ -6,7 +6,8 @@ import os
 import signal
 
 import pytest
-from cluster_cases import Behave, begin, is_running, process_of, wait_for_cycles, wait_for_end, wait_until
+from cluster_cases import Behave, begin, process_of, wait_for_cycles, wait_for_end
+from other_processes import is_running, wait_until
 
 from backend.store.actions import Action, act_on
 from backend.store.database import Database

@@ -11,7 +11,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from cluster_cases import queue_run, wait_until
+from cluster_cases import queue_run
+from other_processes import wait_until
 
 from backend.store.database import Database
 from backend.store.runs import get_run

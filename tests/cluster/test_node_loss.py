@@ -12,7 +12,8 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from cluster_cases import Cluster, is_running, process_of, queue_run, wait_until
+from cluster_cases import Cluster, process_of, queue_run
+from other_processes import is_running, wait_until
 
 from backend.store.database import Database
 from backend.store.files import list_files

@@ -9,16 +9,8 @@ from typing import TYPE_CHECKING
 
 import psutil
 import pytest
-from cluster_cases import (
-    Cluster,
-    begin,
-    fake_command,
-    is_running,
-    process_of,
-    wait_for_cycles,
-    wait_for_end,
-    wait_until,
-)
+from cluster_cases import Cluster, begin, fake_command, process_of, wait_for_cycles, wait_for_end
+from other_processes import is_running, wait_until
 
 from backend.store.database import Database
 from backend.store.outcomes import HandedBack, Lost

@@ -9,7 +9,8 @@ import time
 from contextlib import closing
 
 import pytest
-from worker_cases import is_alive, queued_run, wait_for_training, wait_until, worker_process
+from other_processes import is_running, wait_until
+from worker_cases import queued_run, wait_for_training, worker_process
 
 from backend.store.attempts import list_attempts
 from backend.store.database import Database
@@ -65,7 +66,7 @@ def test_a_worker_stopped_past_its_lease_ends_its_child_and_none_of_its_late_wri
                 before = points(db, run_id, attempt=1)
                 os.kill(stopped.pid, signal.SIGCONT)
                 os.kill(child, signal.SIGCONT)
-                wait_until(lambda: not is_alive(child))
+                wait_until(lambda: not is_running(child))
                 wait_until(lambda: len(points(db, run_id, attempt=2)) > 3)
                 assert stopped.poll() is None
         finally:
@@ -84,9 +85,9 @@ def test_a_worker_that_wakes_up_kills_a_child_that_does_not_notice(db: Database,
         try:
             with worker_process(settings, "counts", SHORT_LEASE_S):
                 wait_until(lambda: "lost" in [event.event for event in list_events(db, run_id)])
-                assert is_alive(child)
+                assert is_running(child)
                 os.kill(stopped.pid, signal.SIGCONT)
-                wait_until(lambda: not is_alive(child))
+                wait_until(lambda: not is_running(child))
         finally:
             os.kill(stopped.pid, signal.SIGCONT)
 

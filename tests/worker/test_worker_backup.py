@@ -7,8 +7,9 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from other_processes import wait_until
 from store_engines import PostgresStores, SqliteStores
-from worker_cases import queued_run, wait_until, worker
+from worker_cases import queued_run, worker
 
 from backend.store.backups.make import make_backup
 from backend.store.backups.restore import restore_backup

@@ -7,7 +7,8 @@ import sys
 from pathlib import Path
 
 import pytest
-from worker_cases import queued_run, wait_until
+from other_processes import wait_until
+from worker_cases import queued_run
 
 from backend.store.database import Database
 from backend.store.outcomes import Failed, Lost

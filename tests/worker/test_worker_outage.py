@@ -5,8 +5,9 @@ from __future__ import annotations
 import signal
 
 import pytest
+from other_processes import wait_until
 from postgres_server import PostgresServer
-from worker_cases import queued_run, read_log, wait_for_state, wait_until, worker, worker_process
+from worker_cases import queued_run, read_log, wait_for_state, worker, worker_process
 
 from backend.store.database import Database
 from backend.store.metrics import read_metrics

@@ -7,7 +7,7 @@ import signal
 import subprocess
 import sys
 
-from worker_cases import wait_until
+from other_processes import wait_until
 
 from backend.store.database import Database
 from backend.store.files import list_files

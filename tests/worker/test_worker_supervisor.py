@@ -8,17 +8,8 @@ import time
 from dataclasses import replace
 
 import pytest
-from worker_cases import (
-    TIMING,
-    is_alive,
-    queued_run,
-    read_log,
-    wait_for_state,
-    wait_for_training,
-    wait_until,
-    worker,
-    worker_process,
-)
+from other_processes import is_running, wait_until
+from worker_cases import TIMING, queued_run, read_log, wait_for_state, wait_for_training, worker, worker_process
 
 from backend.store.actions import request_cancel
 from backend.store.database import Database
@@ -74,7 +65,7 @@ def test_cancel_stops_a_child_that_listens(db: Database, settings: Settings) -> 
         pid = wait_for_training(db, settings, run_id)
         request_cancel(db, run_id)
         wait_for_state(db, run_id, RunState.CANCELLED)
-        wait_until(lambda: not is_alive(pid))
+        wait_until(lambda: not is_running(pid))
 
     assert "Attempt 1 has ended: Cancelled" in read_log(settings, run_id)
 
@@ -90,7 +81,7 @@ def test_cancel_stops_a_child_that_does_not_listen_within_ten_seconds(db: Databa
         took_s = time.monotonic() - asked_at
 
     assert took_s < CANCEL_WITHIN_S
-    assert not is_alive(pid)
+    assert not is_running(pid)
 
 
 def test_an_error_that_would_repeat_is_not_retried(db: Database, settings: Settings) -> None:
@@ -151,7 +142,7 @@ def test_a_child_ends_with_its_supervisor(db: Database, settings: Settings) -> N
         pid = wait_for_training(db, settings, run_id)
         process.send_signal(signal.SIGKILL)
         process.wait()
-        wait_until(lambda: not is_alive(pid))
+        wait_until(lambda: not is_running(pid))
 
     assert get_run(db, run_id).state is RunState.RUNNING
 
@@ -172,7 +163,7 @@ def test_a_child_whose_run_went_to_another_worker_stops_itself(db: Database, set
     with worker(db, settings, "lasts", replace(TIMING, lease_s=1.0, heartbeat_s=3600.0, reap_s=3600.0)):
         pid = wait_for_training(db, settings, run_id)
         wait_until(lambda: reap_expired(db, backoff_s=3600.0) == [run_id])
-        wait_until(lambda: not is_alive(pid))
+        wait_until(lambda: not is_running(pid))
 
     assert "Attempt with fence 1 of run" in read_log(settings, run_id)
 
@@ -182,7 +173,7 @@ def test_a_lost_run_is_noticed_by_the_heartbeat_and_its_child_killed(db: Databas
     with worker(db, settings, "is-deaf", replace(TIMING, lease_s=1.0, heartbeat_s=2.0, reap_s=3600.0)):
         pid = wait_for_training(db, settings, run_id)
         wait_until(lambda: reap_expired(db, backoff_s=3600.0) == [run_id])
-        wait_until(lambda: not is_alive(pid))
+        wait_until(lambda: not is_running(pid))
 
     assert get_run(db, run_id).state is RunState.QUEUED
 

@@ -4,15 +4,9 @@ from __future__ import annotations
 
 from datetime import timedelta
 
+from other_processes import is_running, wait_until
 from sqlalchemy import update
-from worker_cases import (
-    is_alive,
-    queued_run,
-    wait_for_state,
-    wait_for_training,
-    wait_until,
-    worker,
-)
+from worker_cases import queued_run, wait_for_state, wait_for_training, worker
 
 from backend.store.actions import Action, act_on
 from backend.store.attempts import list_attempts
@@ -45,7 +39,7 @@ def test_a_pause_ends_the_cycle_checkpoints_and_frees_the_slot(db: Database, set
         asked_at_cycle = cycles(db, first)[-1]
         act_on(db, Action.PAUSE, [first])
         wait_for_state(db, first, RunState.PAUSED)
-        wait_until(lambda: not is_alive(pid))
+        wait_until(lambda: not is_running(pid))
         wait_for_training(db, settings, second)
 
     stopped_at = int((settings.run_directory(first) / "cycle.txt").read_text())
@@ -83,7 +77,7 @@ def test_a_training_that_hangs_is_ended_and_tried_again(db: Database, settings: 
         run = wait_for_state(db, run_id, RunState.SUCCEEDED)
 
     first, second = list_attempts(db, run_id)
-    assert not is_alive(pid)
+    assert not is_running(pid)
     assert run.attempt == 2
     assert (first.outcome, first.reason) == (
         "retried",

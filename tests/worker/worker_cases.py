@@ -6,10 +6,11 @@ import os
 import subprocess
 import sys
 import threading
-import time
-from collections.abc import Callable, Generator
+from collections.abc import Generator
 from contextlib import contextmanager
 from pathlib import Path
+
+from other_processes import wait_until
 
 from backend.store.database import Database
 from backend.store.launches import LaunchOrder, launch
@@ -31,8 +32,6 @@ TIMING = Timing(
     stop_grace_s=5.0,
     retry_backoff_s=0.0,
 )
-PATIENCE_S = 60.0
-"""Long, because the machine that runs the tests may be busy with others."""
 
 
 def fake_command(behaviour: str) -> list[str]:
@@ -75,14 +74,6 @@ def queued_run(db: Database, seed: int = 0) -> str:
     return launch(db, LaunchOrder("FetchPush", "manipulation", "her", [seed], "smoke"))[0]
 
 
-def wait_until(is_so: Callable[[], bool], patience_s: float = PATIENCE_S) -> None:
-    """Wait for something to come true."""
-    give_up_at = time.monotonic() + patience_s
-    while not is_so():
-        assert time.monotonic() < give_up_at, "it did not come true in time"
-        time.sleep(0.02)
-
-
 def wait_for_state(db: Database, run_id: str, state: RunState) -> RunRow:
     """Wait until a run is in a state."""
     wait_until(lambda: get_run(db, run_id).state is state)
@@ -99,11 +90,3 @@ def wait_for_training(db: Database, settings: Settings, run_id: str) -> int:
 def read_log(settings: Settings, run_id: str) -> str:
     """Return what the run's processes have said."""
     return (settings.run_directory(run_id) / "log.txt").read_text()
-
-
-def is_alive(pid: int) -> bool:
-    """Tell whether a process runs; a zombie does not."""
-    try:
-        return "\nState:\tZ" not in Path(f"/proc/{pid}/status").read_text()
-    except (FileNotFoundError, ProcessLookupError):
-        return False
