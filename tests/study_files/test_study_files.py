@@ -28,6 +28,7 @@ from backend.store.storage import FileStorage
 from backend.store.studies.launch import create_study, delete_study, extend_study, fill_study
 from backend.store.studies.matrix import StudyMatrix, get_study, list_studies
 from backend.store.studies.spec import Addition
+from backend.store.study_files.chosen_files import EpisodeChoice
 from backend.store.study_files.packing import pack_study
 from backend.store.study_files.placing import import_study
 from backend.store.tables import attempts
@@ -110,6 +111,23 @@ def test_what_was_imported_can_be_exported_again(
     curves = [content for name, content in members_of(exported).items() if name.startswith("metrics/")]
     again = [content for name, content in members_of(tmp_path / "again.zip").items() if name.startswith("metrics/")]
     assert sorted(again) == sorted(curves)
+
+
+@pytest.mark.parametrize(("episodes_of", "seeds"), [("every", {0, 1}), ("first-seed", {0}), ("none", set())])
+def test_a_smaller_file_has_the_episodes_of_fewer_runs(
+    db: Database, settings: Settings, exported: Path, tmp_path: Path, episodes_of: EpisodeChoice, seeds: set[int]
+) -> None:
+    imported = import_study(db, settings, exported, "It")
+
+    pack_study(db, settings, imported.study_id, tmp_path / "smaller.zip", episodes_of)
+
+    again = import_study(db, settings, tmp_path / "smaller.zip", "It")
+    cells = get_study(db, again.study_id).cells
+    assert len(cells) == 2
+    for run in (run for cell in cells for run in cell.runs):
+        names = {file.name for file in list_files(db, run.run_id)}
+        assert names - {"policy-best.pt"} == ({"episodes-epoch-0003.npz"} if run.seed in seeds else set())
+        assert list_episodes(db, run.run_id, EpisodeFilter(), "epoch", True, 10, 0).total == (run.seed in seeds)
 
 
 def test_each_run_tells_what_trained_it_and_names_nobody(

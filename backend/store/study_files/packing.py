@@ -16,13 +16,14 @@ from sqlalchemy import Connection, select
 
 from backend.store.database import Database
 from backend.store.errors import Refused
-from backend.store.files import FileRow, list_files
+from backend.store.files import list_files
 from backend.store.locomotion import TRAIN, ZOO
 from backend.store.metrics import read_metrics
 from backend.store.settings import Settings
 from backend.store.states import RunState
 from backend.store.storage import FileStorage
 from backend.store.studies.launch import find_study
+from backend.store.study_files.chosen_files import EpisodeChoice, choose_files, keeps_episodes, kind_of
 from backend.store.study_files.machines import count_machines, find_machines
 from backend.store.study_files.records import (
     FORMAT,
@@ -44,10 +45,7 @@ from backend.store.study_files.records import (
 )
 from backend.store.tables import AnyRow, episodes, run_events, run_needs, run_progress, runs, study_runs
 from sldr_core.disk import write_atomically
-from sldr_core.episodes import epoch_of
 
-BEST_POLICY, NEWEST_POLICY = "policy-best.pt", "policy-newest.pt"
-KINDS = {"policy-best.pt": "policy", "policy-newest.pt": "policy", "locomotion.pt": "locomotion"}
 PACKAGES = ("sldr", "torch", "numpy", "mujoco", "mjbatch", "gymnasium-robotics")
 
 
@@ -80,8 +78,17 @@ class Members:
     """All that trained, in the same way."""
 
 
-def pack_study(db: Database, settings: Settings, study_id: str, out: Path) -> Packed:
+def pack_study(
+    db: Database, settings: Settings, study_id: str, out: Path, episodes_of: EpisodeChoice = "every"
+) -> Packed:
     """Write a study file.
+
+    Args:
+        db: the store that has the study.
+        settings: where the files of its runs are.
+        study_id: the study.
+        out: the file to write.
+        episodes_of: whose recorded episodes are packed; they are a good part of the file.
 
     Raises:
         NotFound: there is no such study.
@@ -97,7 +104,11 @@ def pack_study(db: Database, settings: Settings, study_id: str, out: Path) -> Pa
 
     def write(path: Path) -> None:
         with ZipFile(path, "w", ZIP_DEFLATED, compresslevel=9) as archive:
-            records = [_pack_run(db, storage, archive, row, members) for row in packed_runs]
+            packed_places = {row.id: members.places[row.id] for row in members.robots}
+            records = [
+                _pack_run(db, storage, archive, row, members, keeps_episodes(episodes_of, row.id, packed_places))
+                for row in packed_runs
+            ]
             content = StudyFile(
                 format=FORMAT,
                 made_at=datetime.now(UTC),
@@ -145,10 +156,12 @@ def _spec(values: Mapping[str, Any]) -> SpecRecord:
     )
 
 
-def _pack_run(db: Database, storage: FileStorage, archive: ZipFile, row: AnyRow, members: Members) -> RunRecord:
+def _pack_run(
+    db: Database, storage: FileStorage, archive: ZipFile, row: AnyRow, members: Members, with_episodes: bool
+) -> RunRecord:
     curves = json.dumps(_curves(db, row.id).model_dump(), separators=(",", ":")).encode()
     archive.writestr(metrics_member(row.id), curves)
-    files = _wanted(list_files(db, row.id))
+    files = choose_files(list_files(db, row.id), with_episodes)
     for file in files:
         # They are packed already.
         archive.write(storage.bring(file), file_member(row.id, file.name), ZIP_STORED)
@@ -173,7 +186,7 @@ def _pack_run(db: Database, storage: FileStorage, archive: ZipFile, row: AnyRow,
         progress=None if progress is None else ProgressRecord(**_fields(ProgressRecord, progress)),
         events=events,
         episodes=listed,
-        files=[RunFile(name=file.name, kind=_kind(file.name), size=file.size, sha256=file.sha256) for file in files],
+        files=[RunFile(name=file.name, kind=kind_of(file.name), size=file.size, sha256=file.sha256) for file in files],
         metrics=Member(size=len(curves), sha256=hashlib.sha256(curves).hexdigest()),
     )
 
@@ -207,22 +220,6 @@ def _pieces(db: Database, run_id: str) -> Iterator[Any]:
     while (columns := read_metrics(db, run_id, after)).step:
         yield columns
         after = columns.cursor
-
-
-def _wanted(files: Sequence[FileRow]) -> list[FileRow]:
-    """Return the final policy, the model and the last recorded episodes of a run."""
-    by_name = {file.name: file for file in files}
-    policy = next((name for name in (BEST_POLICY, NEWEST_POLICY) if name in by_name), "")
-    recorded = max(
-        (name for name in by_name if epoch_of(name) is not None), key=lambda name: epoch_of(name) or 0, default=""
-    )
-    # A locomotion model holds the object's policy, and is what the robot's run has learnt from.
-    wanted = ("locomotion.pt" if "locomotion.pt" in by_name else policy, recorded)
-    return [by_name[name] for name in wanted if name in by_name]
-
-
-def _kind(name: str) -> Any:
-    return KINDS.get(name, "episodes")
 
 
 def _fields(record: type[EpisodeRecord | EventRecord | ProgressRecord], row: Any) -> dict[str, Any]:

@@ -23,6 +23,7 @@ from backend.store.compared_runs import RunChoice, find_compared_runs, read_conf
 from backend.store.database import Database, open_database
 from backend.store.runs import get_runs
 from backend.store.settings import load_settings
+from backend.store.study_files.chosen_files import EpisodeChoice
 from backend.store.study_files.packing import pack_study
 from sldr_core.config import Phase
 from sldr_core.errors import InvalidConfig, UnknownName
@@ -167,17 +168,21 @@ def bundle(out: Path, runs: Runs, view: View, anonymous: bool = False) -> int:
     return _write(out, make_bundle(parts))
 
 
-def study(study: tyro.conf.Positional[str], out: tyro.conf.Positional[Path]) -> int:
+def study(
+    study: tyro.conf.Positional[str], out: tyro.conf.Positional[Path], episodes_of: EpisodeChoice = "every"
+) -> int:
     """Pack a study into one file that `sldr import` takes in elsewhere: curves, configs, policies, a few episodes.
 
     Args:
         study: The id of the study.
         out: The .zip file to write.
+        episodes_of: Whose recorded episodes go in: those of every run, of the first seed of each method, or none. They
+            are a good part of the file.
     """
     _check_place(out)
     settings = load_settings()
     with closing(open_database(settings)) as db:
-        packed = pack_study(db, settings, study, out)
+        packed = pack_study(db, settings, study, out, episodes_of)
     left_out = f", {packed.left_out} places without a run that has succeeded left out" if packed.left_out else ""
     print(f"{out}: {packed.runs} runs, {packed.size / 1e6:.1f} MB{left_out}")
     return 0
