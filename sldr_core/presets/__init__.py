@@ -77,7 +77,7 @@ PRESETS: dict[str, Preset] = {
                     "stop_at_success": 0.95,
                     "stop_after_tests": 2,
                 },
-                "agent": QUICK_AGENT,
+                "agent": {**QUICK_AGENT, "learning_rate": 2e-3},
                 "replay": {"still_weight": 0.1, "met_weight": 0.05},
             },
             locomotion={
