@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import subprocess
-import sys
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from pathlib import Path
@@ -21,7 +20,6 @@ from backend.store.queue import claim
 from backend.store.settings import Settings
 from worker.executors import Child, Executor
 
-FAKE_CHILD = Path(__file__).parents[1] / "worker" / "fake_child.py"
 PATIENCE_S = 180.0
 """Long, because the machine that runs the tests may be busy with others."""
 
@@ -76,11 +74,6 @@ class Cluster:
             raise ClusterNotStarted((self.home / "cluster.log").read_text())
         said = json.loads(line)
         return said["address"], said["raylets"]
-
-
-def fake_command(behaviour: str) -> list[str]:
-    """Return the command of a child that behaves so."""
-    return [sys.executable, str(FAKE_CHILD), behaviour]
 
 
 def queue_run(db: Database, overrides: Mapping[str, Any] | None = None) -> str:

@@ -6,7 +6,7 @@ import signal
 import sys
 from pathlib import Path
 
-from cluster_cases import fake_command
+from fake_attempts import fake_command
 
 from backend.store.database import open_database
 from backend.store.settings import load_settings

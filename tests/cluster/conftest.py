@@ -10,7 +10,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from cluster_cases import Behave, Cluster, ClusterNotStarted, fake_command
+from cluster_cases import Behave, Cluster, ClusterNotStarted
+from fake_attempts import fake_command
 
 from backend.store.settings import Settings
 from worker.executors.local import LocalExecutor

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 
 import psutil
 import pytest
-from cluster_cases import Cluster, begin, fake_command, process_of, wait_for_cycles, wait_for_end
+from cluster_cases import Cluster, begin, process_of, wait_for_cycles, wait_for_end
+from fake_attempts import fake_command
 from other_processes import is_running, wait_until
 
 from backend.store.database import Database

@@ -9,7 +9,7 @@ import signal
 import sys
 from dataclasses import replace
 
-from worker_cases import TIMING, fake_command
+from fake_trainings import TIMING, fake_command
 
 from backend.store.database import open_database
 from backend.store.settings import load_settings

@@ -10,6 +10,7 @@ from collections.abc import Generator
 from contextlib import contextmanager
 from pathlib import Path
 
+from fake_trainings import TIMING, fake_command
 from other_processes import wait_until
 
 from backend.store.database import Database
@@ -23,20 +24,6 @@ from worker.executors.local import LocalExecutor
 from worker.supervisor import Supervisor, Timing
 
 HERE = Path(__file__).parent
-TIMING = Timing(
-    poll_s=0.05,
-    heartbeat_s=0.2,
-    lease_s=60.0,
-    reap_s=0.1,
-    cancel_grace_s=0.5,
-    stop_grace_s=5.0,
-    retry_backoff_s=0.0,
-)
-
-
-def fake_command(behaviour: str) -> list[str]:
-    """Return the command of a child that behaves so."""
-    return [sys.executable, str(HERE / "fake_child.py"), behaviour]
 
 
 @contextmanager
