@@ -41,6 +41,9 @@ GROUPS: dict[str, Callable[[], Iterator[Measured]]] = {
 AGAINST_PEERS = ("push", "pick-and-place")
 """Groups in which a peer is trained for hours."""
 
+NUMBERS = Path("docs/performance.json")
+"""Beside the page that is made of it, so that a group measured on another day or machine stays in the page."""
+
 LONG = (*AGAINST_PEERS, "quality")
 """Groups of hours, and of runs that took hours: measured only when they are named."""
 
@@ -78,7 +81,7 @@ def _parse() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="make bench", description=__doc__)
     parser.add_argument("--only", choices=list(GROUPS), action="append", help="measure this group; may be given again")
     parser.add_argument("--write", type=Path, metavar="PAGE", help="put the table into this page")
-    parser.add_argument("--json", type=Path, default=Path("build/bench.json"), help="where the numbers go")
+    parser.add_argument("--json", type=Path, default=NUMBERS, help="where the numbers go")
     hours = PEER_CAP_S / 3600.0
     parser.add_argument("--peer-hours", type=float, default=hours, help="how long a robot's peer may train")
     parser.add_argument("--keep-peer", action="store_true", help="take that peer's result from an earlier time here")

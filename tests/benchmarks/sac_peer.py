@@ -17,7 +17,7 @@ import torch
 from bench_rows import seconds_until
 from measured_page import describe_machine
 
-KEPT = Path("build/bench-peers.json")
+KEPT = Path("docs/performance-peers.json")
 """Results by task and machine."""
 
 TESTED_EVERY = 5_000
