@@ -196,7 +196,7 @@ def test_task_then_method_then_preset_then_overrides_decide() -> None:
     assert make_config("FetchPush", "locomotion", "her", 0, "quick").loop.epochs == task.quick_locomotion_epochs == 10
     assert make_config("FetchPush", "manipulation", "her", 0, "quick").loop.epochs == task.quick_epochs == 15
     assert make_config("FetchSlide", "manipulation", "her", 0, "quick").loop.epochs == 40
-    assert make_config("HandPenRotate", "locomotion", "her", 0, "quick").agent.gamma == 0.98
+    assert make_config("HandPenRotateXYZ", "locomotion", "her", 0, "quick").agent.gamma == 0.98
     assert make_config("HandPenRotate", "manipulation", "her", 0, "quick").agent.gamma == 0.95
     paper = make_config("FetchPush", "locomotion", "her", 0, "paper")
     assert (paper.loop.epochs, paper.agent.gamma) == (task.paper_locomotion_epochs, task.locomotion_gamma)

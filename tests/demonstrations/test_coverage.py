@@ -45,7 +45,7 @@ def test_what_lies_beyond_the_edges_is_counted_at_the_border():
     assert axis.place(np.array([-5.0, 0.0, 0.99, 1.0, 2.0, 7.0])).tolist() == [0, 0, 0, 1, 1, 1]
 
 
-@pytest.mark.parametrize("task", [*LOCOMOTION_TASKS, "FetchStack2", "HandBlockTranslate", "HandPenRotate"])
+@pytest.mark.parametrize("task", [*LOCOMOTION_TASKS, "FetchStack2", "HandBlockTranslate", "HandPenRotateXYZ"])
 def test_every_draw_lies_within_the_spaces_of_its_task(inspect, task):
     inspected = inspect("FetchPickAndPlace" if task == "FetchStack2" else task)
     envs = inspected.make_envs(DRAWS)

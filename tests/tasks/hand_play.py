@@ -6,12 +6,10 @@ import numpy as np
 
 from sldr_core.config import PoseGoal
 from sldr_core.envs import Envs, Observation
-from sldr_core.envs.rotations import euler_from_quaternion, quaternion_from_euler
 
 LOCOMOTION_TASKS = (
     "HandEggRotate",
     "HandBlockRotate",
-    "HandPenRotate",
     "HandEggTranslate",
     "HandBlockTranslate",
     "HandPenTranslate",
@@ -45,10 +43,6 @@ def proportional_actions(envs: Envs, now: Observation, home: np.ndarray) -> np.n
     assert isinstance(goal, PoseGoal)
     wanted_position = now.goal[:, :3] if goal.distance is not None else home + LIFT
     wanted_turn = now.goal[:, 3:] if goal.angle is not None else turned
-    if goal.ignore_z:
-        euler = euler_from_quaternion(wanted_turn)
-        euler[:, 2] = euler_from_quaternion(turned)[:, 2]
-        wanted_turn = quaternion_from_euler(euler)
     nearer = np.where((turned * wanted_turn).sum(axis=1, keepdims=True) < 0.0, -1.0, 1.0)
     change = np.concatenate([wanted_position - position, nearer * wanted_turn - turned], axis=1) / FULL_CHANGE
     return np.concatenate([_within_one(change[:, :3]), _within_one(change[:, 3:])], axis=1)

@@ -11,7 +11,7 @@ from sldr_core.envs import Envs, make_envs
 from sldr_core.envs.rotations import angle_between
 from sldr_core.errors import InvalidConfig
 
-OBJECTS = ("HandEggRotate", "HandBlockRotate", "HandPenRotate")
+OBJECTS = ("HandEggRotate", "HandBlockRotate", "HandPenRotateXYZ")
 MEASURED_STEPS = 6
 HIGH_ABOVE = (1.0, 0.87, 0.6, 1.0, 0.0, 0.0, 0.0)
 """A pose in free air."""
@@ -50,7 +50,7 @@ def test_full_action_on_one_quaternion_component_turns_every_object_by_six_hundr
     mean = turns(poses_during(floating_object(task), action)).mean()
 
     # Drag on the joint holds the thin pen back in its own roll, whatever the weld's torque.
-    rolls = task == "HandPenRotate" and component == 3
+    rolls = task == "HandPenRotateXYZ" and component == 3
     assert (0.035 if rolls else 0.055) < mean < 0.07
 
 

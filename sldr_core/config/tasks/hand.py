@@ -83,9 +83,8 @@ def _task(
     )
 
 
-def _rotate(thing: _Object, goal_text: str) -> TaskSpec:
-    name = f"Hand{thing.name}Rotate"
-    return _task(thing, "Rotate", goal_text, "ignore", "xyz", (Part("rotation", name, 0),), 100)
+def _rotate(thing: _Object, goal_text: str, rotation_task: str) -> TaskSpec:
+    return _task(thing, "Rotate", goal_text, "ignore", "xyz", (Part("rotation", rotation_task, 0),), 100)
 
 
 def _full(thing: _Object, goal_text: str, rotation_task: str) -> TaskSpec:
@@ -100,11 +99,17 @@ def _translate(thing: _Object) -> TaskSpec:
     return replace(task, original={**task.original, "paper_locomotion_epochs": 20})
 
 
-HAND_EGG_ROTATE = _rotate(_EGG, "Turn the egg as the target is turned; where it lies does not count.")
+HAND_EGG_ROTATE = _rotate(_EGG, "Turn the egg as the target is turned; where it lies does not count.", "HandEggRotate")
 
-HAND_BLOCK_ROTATE = _rotate(_BLOCK, "Turn the block as the target is turned; where it lies does not count.")
+HAND_BLOCK_ROTATE = _rotate(
+    _BLOCK, "Turn the block as the target is turned; where it lies does not count.", "HandBlockRotate"
+)
 
-HAND_PEN_ROTATE = _rotate(_PEN, "Point the pen as the target points; where it lies and its own roll do not count.")
+# The pen that learns to turn with its roll points better in the end than one that learns to point: near gimbal lock,
+# where the criterion without the roll asks for most, it has seen what a turn is. The authors share one model as well.
+HAND_PEN_ROTATE = _rotate(
+    _PEN, "Point the pen as the target points; where it lies and its own roll do not count.", "HandPenRotateXYZ"
+)
 
 HAND_EGG_FULL = _full(_EGG, "Bring the egg to the target's place and turn it as the target is turned.", "HandEggRotate")
 
