@@ -58,23 +58,20 @@ def main() -> int:
     results = read_results(options.json)
     measured: list[Measured] = []
     for name in named:
-        rows = [_told(one) for one in groups[name]()]
-        measured += rows
-        # A group that measures nothing on this machine leaves what is known of it from another one. What was measured
-        # is kept at once: a later group may fail after hours.
-        if rows:
+        # A group that measures nothing on this machine leaves what is known of it from another one. Each row is kept
+        # at once: the next one may fail after hours.
+        rows: list[Measured] = []
+        for one in groups[name]():
+            print(as_line(one), flush=True)
+            rows.append(one)
             results[name] = KeptGroup(today(), describe_machine(), tuple(rows))
             keep_results(options.json, results)
             if options.write is not None:
                 write_parts(options.write, "make bench", as_tables(results, list(GROUPS)))
+        measured += rows
     missed = [one for one in measured if not one.is_met]
     print(f"{len(missed)} of {len(measured)} rows fall short.")
     return 1 if missed else 0
-
-
-def _told(measured: Measured) -> Measured:
-    print(as_line(measured), flush=True)
-    return measured
 
 
 def _parse() -> argparse.Namespace:
