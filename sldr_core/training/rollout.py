@@ -5,7 +5,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,6 +24,9 @@ Act = Callable[[Floats, Floats], Floats]
 Check = Callable[[], None]
 """Called between steps; raises to abandon what is being done."""
 
+ACTING_THREADS = 1
+"""Of torch while episodes run: a few dozen observations gain nothing from more, and threads that have nothing to do
+wait for the next product by keeping a core busy, which simulations and a learner beside need."""
 
 Watch = Callable[[int, Observation], None]
 """Shown every moment of the episodes, from 0 to T, right after it has come; it changes nothing."""
@@ -75,12 +79,13 @@ def collect_episodes(envs: Envs, act: Act, check: Check, watch: Watch | None = N
     action = np.empty((count, length, envs.action_size), dtype=np.float32)
     goal = now.goal.astype(np.float32)
     show = watch or (lambda t, now: None)
-    for t in range(length):
-        show(t, now)
-        obs[:, t], achieved[:, t] = now.obs, now.achieved
-        action[:, t] = act(obs[:, t], goal)
-        now = envs.step(action[:, t])
-        check()
+    with _acting_threads():
+        for t in range(length):
+            show(t, now)
+            obs[:, t], achieved[:, t] = now.obs, now.achieved
+            action[:, t] = act(obs[:, t], goal)
+            now = envs.step(action[:, t])
+            check()
     show(length, now)
     obs[:, length], achieved[:, length] = now.obs, now.achieved
     episodes = Episodes(obs, achieved, goal, action)
@@ -90,6 +95,17 @@ def collect_episodes(envs: Envs, act: Act, check: Check, watch: Watch | None = N
         envs.success(now.achieved, now.goal),
         np.linalg.norm(now.achieved - now.goal, axis=1).astype(np.float32),
     )
+
+
+@contextmanager
+def _acting_threads() -> Iterator[None]:
+    """Give torch the threads of acting, in this thread alone: a learner in another one keeps its own."""
+    before = torch.get_num_threads()
+    torch.set_num_threads(ACTING_THREADS)
+    try:
+        yield
+    finally:
+        torch.set_num_threads(before)
 
 
 def numpy_policy(act: Callable[[torch.Tensor, torch.Tensor], torch.Tensor]) -> Act:
