@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import threading
 from copy import deepcopy
 from pathlib import Path
@@ -45,6 +46,11 @@ def build(directory: Path, model: Path) -> Parts:
     return parts
 
 
+def count_threads() -> int:
+    """Return how many threads this process has, those of libraries too."""
+    return len(os.listdir("/proc/self/task"))
+
+
 def assert_equal(ours: Any, theirs: Any) -> None:
     """Compare nested states to the last bit."""
     if isinstance(ours, dict):
@@ -77,6 +83,33 @@ def test_a_cycle_gives_what_its_halves_give_one_after_the_other(tmp_path: Path, 
     assert_equal(beside.learner_states(), plain.learner_states())
     for name, array in beside.buffer.arrays.items():
         assert (array == plain.buffer.arrays[name]).all(), name
+
+
+def test_acting_beside_the_learner_starts_no_threads_of_its_own(
+    tmp_path: Path, model: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    parts, started = build(tmp_path / "run", model), []
+    left, right = torch.ones(512, 512), torch.ones(512, 512)
+
+    def act(obs: torch.Tensor, goal: torch.Tensor) -> torch.Tensor:
+        before = count_threads()
+        torch.mm(left, right)
+        started.append(count_threads() - before)
+        return torch.zeros(len(obs), parts.envs.action_size)
+
+    monkeypatch.setattr(parts.agent, "frozen_policy", lambda: act)
+    monkeypatch.setattr(parts.agent, "update", lambda *_: {})
+    before = torch.get_num_threads()
+    torch.set_num_threads(2)
+    try:
+        cycle_beside(parts, 0, nothing)
+        assert torch.get_num_threads() == 2
+    finally:
+        torch.set_num_threads(before)
+
+    # Fewer there may be: those of simulations that an earlier test has left end whenever they do.
+    assert len(started) == parts.envs.episode_length
+    assert max(started) <= 0
 
 
 def test_a_training_that_was_stopped_goes_on_to_the_same_bits(tmp_path: Path, model: Path) -> None:
