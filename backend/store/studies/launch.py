@@ -214,4 +214,6 @@ def _member(study_id: str, planned: PlannedPlace, run_id: str) -> dict[str, obje
 def _check_name_is_free(conn: Connection, name: str, own_id: str = "") -> None:
     query = select(studies.c.id).where(studies.c.name == name, studies.c.deleted_at.is_(None), studies.c.id != own_id)
     if conn.execute(query.limit(1)).scalar_one_or_none() is not None:
-        raise Refused(f"There is a study called '{name}' already; choose another name.")
+        raise Refused(
+            f"There is a study called '{name}' already; choose another name, or add seeds to that one on its page."
+        )
