@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 from cluster_cases import Behave, Cluster, ClusterNotStarted
 from fake_attempts import fake_command
+from other_processes import PATIENCE_S
 
 from backend.store.settings import Settings
 from worker.executors.local import LocalExecutor
@@ -76,11 +77,13 @@ def connected(cluster: Cluster) -> Iterator[None]:
 
 
 @pytest.fixture(params=["local", pytest.param("ray", marks=pytest.mark.cluster)])
-def behave(request: pytest.FixtureRequest, settings: Settings) -> Behave:
+def behave(request: pytest.FixtureRequest, settings: Settings, monkeypatch: pytest.MonkeyPatch) -> Behave:
     """Return a way to make an executor, of each kind, whose children behave as told."""
     if request.param == "local":
         return lambda behaviour: LocalExecutor(settings, fake_command(behaviour))
     request.getfixturevalue("connected")
+    from worker.executors import ray_child
     from worker.executors.ray import RayExecutor
 
+    monkeypatch.setattr(ray_child, "PLACEMENT_S", PATIENCE_S)  # A busy machine takes long to start what holds one.
     return lambda behaviour: RayExecutor(settings, 1, fake_command(behaviour))

@@ -61,6 +61,15 @@ def test_an_attempt_ends_with_what_holds_it_on_its_node(db: Database, settings: 
     assert child.outcome() == Lost(f"The cluster lost what held its process on {socket.gethostname()}.")
 
 
+def test_an_attempt_does_not_make_way_for_others(db: Database, settings: Settings, complete: None) -> None:
+    claimed, child = begin(db, ray_executor(settings, fake_command("lasts")))
+    wait_for_cycles(db, claimed.run_id, child)
+    niceness = psutil.Process(process_of(settings, claimed.run_id)).nice()
+    end(child)
+
+    assert niceness == psutil.Process().nice()
+
+
 @pytest.mark.slow
 def test_a_third_attempt_waits_for_a_node(db: Database, settings: Settings, complete: None) -> None:
     executor = ray_executor(settings, fake_command("lasts"))
@@ -95,7 +104,9 @@ def test_an_attempt_that_finds_no_node_is_handed_back(
     for _, other in placed:
         end(other)
 
-    assert child.outcome() == HandedBack("For 0 s no node of the cluster had 1 core free.", ray_child.PLACE_AGAIN_S)
+    assert child.outcome() == HandedBack(
+        "For 0 s no node of the cluster had 1 core free, or none could start it.", ray_child.PLACE_AGAIN_S
+    )
 
 
 def test_a_run_that_no_node_can_hold_is_handed_back_at_once(db: Database, settings: Settings, complete: None) -> None:

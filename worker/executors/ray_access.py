@@ -79,9 +79,10 @@ def cluster_environment(home: Path, host: str) -> dict[str, str]:
     """Return the environment of whatever takes part in a cluster whose head has the address `host`.
 
     A token is asked for everywhere, no usage is reported to anybody, and a cluster on the loopback address alone
-    listens nowhere else: Ray does so where it believes that there can be no second machine.
+    listens nowhere else: Ray does so where it believes that there can be no second machine. Trainings keep their
+    node's usual priority: Ray would make them nicer than the processes that are to make way for them.
     """
-    environment = {"RAY_AUTH_MODE": "token", "RAY_USAGE_STATS_ENABLED": "0"}
+    environment = {"RAY_AUTH_MODE": "token", "RAY_USAGE_STATS_ENABLED": "0", "RAY_worker_niceness": "0"}
     if not any(os.environ.get(name) for name in TOKEN_VARIABLES):
         environment["RAY_AUTH_TOKEN_PATH"] = str(home / TOKEN_FILE)
     if is_loopback(host):

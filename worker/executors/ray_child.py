@@ -133,7 +133,7 @@ class RayChild:
             self._placed_at = time.monotonic()
             log.info("Run %s: it is %s.", self._run_id, self.place)
         elif time.monotonic() > self._give_up_at:
-            reason = f"For {PLACEMENT_S:.0f} s no node of the cluster had {self._needs} free."
+            reason = f"For {PLACEMENT_S:.0f} s no node of the cluster had {self._needs} free, or none could start it."
             self._end(EXIT_UNPLACED, HandedBack(reason, PLACE_AGAIN_S))
 
     def _give_up(self, err: RayError) -> None:
