@@ -19,8 +19,8 @@ from bench_reaching import PEER_CAP_S, measure_locomotion, measure_manipulation
 from bench_rows import Measured
 from bench_service import measure_service, measure_two_at_once
 from bench_simulation import measure_collecting, measure_locomotion_scenes
-from kept_results import KeptGroup, as_line, as_tables, keep_results, read_results
-from measured_page import describe_machine, today, write_parts
+from kept_results import as_line, as_tables, keep_each, read_results
+from measured_page import write_parts
 
 GROUPS: dict[str, Callable[[], Iterator[Measured]]] = {
     "collecting": measure_collecting,
@@ -55,20 +55,14 @@ def main() -> int:
     peer = {"cap_s": 3600.0 * options.peer_hours, "take_kept": options.keep_peer}
     groups = GROUPS | {name: partial(GROUPS[name], **peer) for name in AGAINST_PEERS}
     groups["quality"] = partial(measure_quality, options.home)
-    results = read_results(options.json)
     measured: list[Measured] = []
     for name in named:
-        # A group that measures nothing on this machine leaves what is known of it from another one. Each row is kept
-        # at once: the next one may fail after hours.
-        rows: list[Measured] = []
-        for one in groups[name]():
+        # A group that measures nothing on this machine leaves what is known of it from another one.
+        for one in keep_each(options.json, name, groups[name]()):
             print(as_line(one), flush=True)
-            rows.append(one)
-            results[name] = KeptGroup(today(), describe_machine(), tuple(rows))
-            keep_results(options.json, results)
+            measured.append(one)
             if options.write is not None:
-                write_parts(options.write, "make bench", as_tables(results, list(GROUPS)))
-        measured += rows
+                write_parts(options.write, "make bench", as_tables(read_results(options.json), list(GROUPS)))
     missed = [one for one in measured if not one.is_met]
     print(f"{len(missed)} of {len(measured)} rows fall short.")
     return 1 if missed else 0

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from bench_rows import Measured, as_measured
-from measured_page import measured_on
+from measured_page import describe_machine, measured_on, today
 
 
 @dataclass(frozen=True)
@@ -42,6 +42,19 @@ def keep_results(path: Path, results: Mapping[str, KeptGroup]) -> None:
         for name, group in results.items()
     }
     path.write_text(json.dumps(kept, indent=1) + "\n")
+
+
+def keep_each(path: Path, name: str, rows: Iterable[Measured]) -> Iterator[Measured]:
+    """Pass on the rows of a group, each kept as soon as it is measured: the next one may fail after hours.
+
+    The first one takes the place of what was measured of the group before.
+    """
+    results = read_results(path)
+    kept: tuple[Measured, ...] = ()
+    for one in rows:
+        kept = (*kept, one)
+        keep_results(path, results | {name: KeptGroup(today(), describe_machine(), kept)})
+        yield one
 
 
 def as_tables(results: Mapping[str, KeptGroup], order: Sequence[str]) -> list[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import bench_reaching
@@ -9,9 +10,9 @@ import pytest
 import sac_peer
 from bench_epoch import Epoch
 from bench_quality import compare_quality, measure_quality
-from bench_rows import Pairs, Stopwatch, Target, row, seconds_until
+from bench_rows import Measured, Pairs, Stopwatch, Target, row, seconds_until
 from bench_service import with_imports
-from kept_results import KeptGroup, as_tables, keep_results, read_results
+from kept_results import KeptGroup, as_tables, keep_each, keep_results, read_results
 from sac_peer import PeerCurve
 
 INFINITY = float("inf")
@@ -153,3 +154,22 @@ def test_groups_are_kept_and_told_in_their_order_with_day_and_machine(tmp_path: 
         "| speed",
     ]
     assert "| at least 2 x | **1.5 x** (1 to 2) | SHORT | 1 against 2 |" in told[1]
+
+
+def test_a_row_is_kept_before_the_next_one_is_measured(tmp_path: Path) -> None:
+    path = tmp_path / "bench.json"
+    before, other, new = (row(name, "x", [1.0], Target("at least", 2.0), "") for name in ("before", "other", "new"))
+    old = KeptGroup("2026-01-02", "2 cores", (before, before))
+    keep_results(path, {"group": old, "others": KeptGroup("2026-01-02", "2 cores", (other,))})
+
+    def measure() -> Iterator[Measured]:
+        assert read_results(path)["group"] == old
+        yield new
+        raise TimeoutError
+
+    with pytest.raises(TimeoutError):
+        list(keep_each(path, "group", measure()))
+
+    kept = read_results(path)
+    assert kept["group"].rows == (new,)
+    assert kept["others"].rows == (other,)

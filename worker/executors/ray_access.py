@@ -18,6 +18,8 @@ TOKEN_FILE = "cluster-token"
 """In the data directory: the token that opens the cluster."""
 TOKEN_VARIABLES = ("RAY_AUTH_TOKEN", "RAY_AUTH_TOKEN_PATH")
 """Ray's own variables for the token; either is used in place of the file."""
+NICENESS = "RAY_worker_niceness"
+"""Ray's own variable for how nice a node's attempts are."""
 TOKEN_BYTES = 32
 DEFAULT_PORT = 6379
 CONNECT_S = 5.0
@@ -80,9 +82,10 @@ def cluster_environment(home: Path, host: str) -> dict[str, str]:
 
     A token is asked for everywhere, no usage is reported to anybody, and a cluster on the loopback address alone
     listens nowhere else: Ray does so where it believes that there can be no second machine. Trainings keep their
-    node's usual priority: Ray would make them nicer than the processes that are to make way for them.
+    node's usual priority, unless told otherwise: Ray would make them nicer than what is to make way for them.
     """
-    environment = {"RAY_AUTH_MODE": "token", "RAY_USAGE_STATS_ENABLED": "0", "RAY_worker_niceness": "0"}
+    environment = {"RAY_AUTH_MODE": "token", "RAY_USAGE_STATS_ENABLED": "0"}
+    environment[NICENESS] = os.environ.get(NICENESS, "0")
     if not any(os.environ.get(name) for name in TOKEN_VARIABLES):
         environment["RAY_AUTH_TOKEN_PATH"] = str(home / TOKEN_FILE)
     if is_loopback(host):
