@@ -10,8 +10,10 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from backend.comparison.records import CurveComparison, Group, GroupCurve, Panel
+from backend.comparison.words import CENTRES
 from backend.figures.layout import add_legend, panel_grid
 from backend.figures.styles import Size, color_of, dash_of
+from backend.statistics.bands import SEEDS_FOR_BAND
 
 BAND_ALPHA = 0.18
 SEED_ALPHA = 0.45
@@ -43,7 +45,12 @@ def caption(comparison: CurveComparison) -> str:
         return "Nothing logged yet"
     fewest, most = min(numbers), max(numbers)
     seeds = f"{most}" if fewest == most else f"{fewest} to {most}"
-    return f"{comparison.words.statistic[:1].upper()}{comparison.words.statistic[1:]}; seeds: {seeds}"
+    statistic = comparison.words.statistic
+    if most < SEEDS_FOR_BAND:
+        statistic = CENTRES["seeds"]
+    elif fewest < SEEDS_FOR_BAND and comparison.statistic != "seeds":
+        statistic += f", {CENTRES['seeds']} where there are fewer than {SEEDS_FOR_BAND}"
+    return f"{statistic[:1].upper()}{statistic[1:]}; seeds: {seeds}"
 
 
 def _draw_panel(axes: Axes, panel: Panel, groups: dict[str, Group], size: Size) -> None:

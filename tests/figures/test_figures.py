@@ -6,6 +6,7 @@ import csv
 import io
 import re
 import zipfile
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -15,6 +16,7 @@ from backend.comparison.records import BestModels, CurveComparison
 from backend.figures import drawing
 from backend.figures.bundle import Bundle, make_bundle
 from backend.figures.csv_tables import best_csv, curves_csv, plain_csv
+from backend.figures.curve_figure import caption
 from backend.figures.drawing import Drawing, DrawingFailed, draw_apart
 from backend.figures.latex import best_latex, curves_latex, escape
 from backend.figures.rendering import render
@@ -59,6 +61,17 @@ def test_the_csv_of_best_models_holds_bars_and_seeds():
     bar, *seeds = rows(best_csv(BEST))
     assert (bar["seed"], bar["best_success"], bar["low"], bar["high"], bar["n"]) == ("", "0.5", "0.25", "0.75", "3")
     assert [(row["seed"], row["best_success"], row["state"]) for row in seeds] == [("0", "0.5", "succeeded")]
+
+
+def test_the_caption_tells_of_seeds_drawn_by_themselves():
+    several, single = CURVES.panels
+    band = "Median, band: quartiles (25 to 75 %)"
+    assert caption(replace(CURVES, panels=[several])) == f"{band}; seeds: 3"
+    assert caption(replace(CURVES, panels=[single])) == "Each seed by itself; seeds: 1"
+    assert caption(CURVES) == f"{band}, each seed by itself where there are fewer than 3; seeds: 1 to 3"
+    asked = replace(CURVES, statistic="seeds", words=replace(CURVES.words, statistic="each seed by itself"))
+    assert caption(asked) == "Each seed by itself; seeds: 1 to 3"
+    assert caption(replace(CURVES, panels=[])) == "Nothing logged yet"
 
 
 def test_a_plain_table_becomes_csv():
