@@ -79,7 +79,13 @@ def test_a_cluster_of_several_machines_may_listen_to_them(without_token: None, t
         "RAY_AUTH_MODE": "token",
         "RAY_AUTH_TOKEN_PATH": str(tmp_path / "cluster-token"),
         "RAY_USAGE_STATS_ENABLED": "0",
+        "RAY_worker_niceness": "0",
     }
+
+
+def test_a_node_s_owner_says_how_nice_its_trainings_are(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("RAY_worker_niceness", "12")
+    assert cluster_environment(tmp_path, "127.0.0.1")["RAY_worker_niceness"] == "12"
 
 
 def test_a_new_token_is_for_its_owner_only_and_stays(without_token: None, tmp_path: Path) -> None:

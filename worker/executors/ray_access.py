@@ -85,7 +85,7 @@ def cluster_environment(home: Path, host: str) -> dict[str, str]:
     node's usual priority, unless told otherwise: Ray would make them nicer than what is to make way for them.
     """
     environment = {"RAY_AUTH_MODE": "token", "RAY_USAGE_STATS_ENABLED": "0"}
-    environment[NICENESS] = os.environ.get(NICENESS, "0")
+    environment[NICENESS] = os.environ.get(NICENESS) or "0"
     if not any(os.environ.get(name) for name in TOKEN_VARIABLES):
         environment["RAY_AUTH_TOKEN_PATH"] = str(home / TOKEN_FILE)
     if is_loopback(host):
