@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
+from typing import Any
 
 import bench_reaching
 import pytest
 import sac_peer
 from bench_epoch import Epoch
-from bench_quality import compare_quality, measure_quality
+from bench_quality import Finished, compare_quality, is_as_its_preset, measure_quality
 from bench_rows import Measured, Pairs, Stopwatch, Target, row, seconds_until
 from bench_service import with_imports
 from kept_results import KeptGroup, as_tables, keep_each, keep_results, read_results
 from sac_peer import PeerCurve
+
+from backend.store.database import Database
+from backend.store.launches import LaunchOrder, launch
+from backend.store.run_filter import RunFilter
+from backend.store.runs import list_runs
 
 INFINITY = float("inf")
 
@@ -102,18 +108,37 @@ def test_an_epoch_tells_where_the_rest_of_it_goes() -> None:
 
 
 def test_quality_is_compared_with_the_lower_quartile(capsys: pytest.CaptureFixture[str]) -> None:
-    runs = {
+    ended = {
         ("paper", "float32"): [0.80, 0.90, 1.00, 0.85, 0.95],
         ("quick", "float32"): [0.84, 0.86, 1.00],
         ("paper", "bfloat16"): [0.5, 0.6, 0.99],
         ("quick", "bfloat16"): [0.99],
     }
+    runs = {settings: [Finished(rate, len(rates)) for rate in rates] for settings, rates in ended.items()}
     compared = {measured.what: measured for measured in compare_quality({("FetchPush", "her"): runs})}
     quick = compared["FetchPush, her, `quick` in float32: test success"]
     assert (quick.value, quick.target.value, quick.is_met) == (pytest.approx(86.0), pytest.approx(85.0), True)
+    assert quick.detail == "`paper` in float32: 90.0 % (85.0 to 95.0), 5 and 3 seeds of at most 5 and 3 epochs"
     assert not compared["FetchPush, her, `paper` in bfloat16: test success"].is_met
     assert len(compared) == 2
     assert "`quick` in bfloat16 has 1 runs, `paper` in float32 has 5" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("overrides", "is_so"),
+    [
+        ({}, True),
+        ({"loop": {"epochs": 12, "stop_at_success": 0.95, "stop_after_tests": 2}, "compute": {"threads": 1}}, True),
+        ({"loop": {"batch_size": 256}}, False),
+        ({"agent": {"learning_rate": 0.1}}, False),
+    ],
+)
+def test_only_runs_with_the_settings_of_their_preset_count(
+    db: Database, overrides: Mapping[str, Any], is_so: bool
+) -> None:
+    launch(db, LaunchOrder("FetchPush", "manipulation", "her", [0], "paper", overrides))
+    [run] = list_runs(db, RunFilter(), 1).rows
+    assert is_as_its_preset(run) is is_so
 
 
 def test_the_first_page_weighs_what_it_imports_at_once(tmp_path: Path) -> None:
