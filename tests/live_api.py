@@ -11,6 +11,7 @@ from typing import Any
 
 import httpx
 from fastapi import FastAPI
+from signed_in import PATIENCE_S
 
 from backend.api.__main__ import make_server
 from backend.store.claims import Claim
@@ -75,7 +76,7 @@ def serving(app: FastAPI) -> Iterator[str]:
 def new_client(address: str, token: str | None = None) -> httpx.Client:
     """Return a client of a server on this machine, with its token, or as nobody."""
     headers = None if token is None else bearer(token)
-    return httpx.Client(base_url=address, trust_env=False, verify=False, timeout=10.0, headers=headers)
+    return httpx.Client(base_url=address, trust_env=False, verify=False, timeout=PATIENCE_S, headers=headers)
 
 
 def bearer(token: str) -> dict[str, str]:

@@ -135,7 +135,7 @@ def test_the_service_starts_heals_and_ends_as_one(tmp_path: Path, free_port: int
     environment = {**os.environ, "SLDR_HOME": str(tmp_path)}
     environment.pop("SLDR_DATABASE_URL", None)
     address = f"http://127.0.0.1:{free_port}"
-    client = httpx.Client(trust_env=False, verify=False, timeout=10)
+    client = httpx.Client(trust_env=False, verify=False, timeout=PATIENCE_S)
     with (
         client,
         (tmp_path / "errors").open("w") as errors,

@@ -101,6 +101,7 @@ def test_acting_beside_the_learner_starts_no_threads_of_its_own(
     monkeypatch.setattr(parts.agent, "update", lambda *_: {})
     before = torch.get_num_threads()
     torch.set_num_threads(2)
+    torch.mm(left, right)  # The learner's own thread would else come at its first product, which may be just then.
     try:
         cycle_beside(parts, 0, nothing)
         assert torch.get_num_threads() == 2
