@@ -40,15 +40,15 @@ def draw_curves(comparison: CurveComparison, size: Size, log_x: bool = False, lo
 
 def caption(comparison: CurveComparison) -> str:
     """Return statistic, number of seeds and level in words."""
-    numbers = [curve.n for panel in comparison.panels for curve in panel.curves if curve.n]
-    if not numbers:
+    curves = [curve for panel in comparison.panels for curve in panel.curves if curve.n]
+    if not curves:
         return "Nothing logged yet"
-    fewest, most = min(numbers), max(numbers)
+    fewest, most = min(curve.n for curve in curves), max(curve.n for curve in curves)
     seeds = f"{most}" if fewest == most else f"{fewest} to {most}"
     statistic = comparison.words.statistic
-    if most < SEEDS_FOR_BAND:
+    if not any(curve.has_band for curve in curves):
         statistic = CENTRES["seeds"]
-    elif fewest < SEEDS_FOR_BAND and comparison.statistic != "seeds":
+    elif not all(curve.has_band for curve in curves):
         statistic += f", {CENTRES['seeds']} where there are fewer than {SEEDS_FOR_BAND}"
     return f"{statistic[:1].upper()}{statistic[1:]}; seeds: {seeds}"
 

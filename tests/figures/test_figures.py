@@ -69,7 +69,11 @@ def test_the_caption_tells_of_seeds_drawn_by_themselves():
     assert caption(replace(CURVES, panels=[several])) == f"{band}; seeds: 3"
     assert caption(replace(CURVES, panels=[single])) == "Each seed by itself; seeds: 1"
     assert caption(CURVES) == f"{band}, each seed by itself where there are fewer than 3; seeds: 1 to 3"
-    asked = replace(CURVES, statistic="seeds", words=replace(CURVES.words, statistic="each seed by itself"))
+    apart = [
+        replace(panel, curves=[replace(curve, has_band=False) for curve in panel.curves]) for panel in CURVES.panels
+    ]
+    words = replace(CURVES.words, statistic="each seed by itself")
+    asked = replace(CURVES, statistic="seeds", words=words, panels=apart)
     assert caption(asked) == "Each seed by itself; seeds: 1 to 3"
     assert caption(replace(CURVES, panels=[])) == "Nothing logged yet"
 
