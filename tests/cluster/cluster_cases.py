@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import psutil
-from other_processes import is_running, wait_until
+from other_processes import PATIENCE_S, is_running, wait_until
 
 from backend.store.claims import Claim
 from backend.store.database import Database
@@ -19,9 +19,6 @@ from backend.store.metrics import read_metrics
 from backend.store.queue import claim
 from backend.store.settings import Settings
 from worker.executors import Child, Executor
-
-PATIENCE_S = 180.0
-"""Long, because the machine that runs the tests may be busy with others."""
 
 Behave = Callable[[str], Executor]
 """Makes an executor whose children behave so."""
