@@ -17,6 +17,7 @@ from torch.nn.utils import get_total_norm
 from sldr_core.agent.losses import actor_loss, critic_losses, lowest_return, td_target
 from sldr_core.config import AgentConfig
 from sldr_core.nets.adam import Adam
+from sldr_core.nets.descent import descend, slices_of
 from sldr_core.nets.mlp import Mlp, MlpStack
 from sldr_core.nets.normalizer import Drift, Normalizer
 from sldr_core.nets.transitions import Transitions
@@ -86,8 +87,7 @@ class DdpgAgent:
     def values(self, obs: Tensor, goal: Tensor, action: Tensor) -> Tensor:
         """Return what each stream's online critic says of `B` observations, goals and actions, `[S, B]`."""
         with self._precision():
-            features = self.features(obs, goal)
-            return self.critics(torch.cat([features, action], dim=-1))[..., 0].float()
+            return self._judge(self.features(obs, goal), action)
 
     def observe(self, obs: Tensor, goal: Tensor) -> Drift:
         """Take visited observations and their original goals into the running statistics; return how they moved."""
@@ -139,22 +139,37 @@ class DdpgAgent:
     def _update_critics(
         self, features: Tensor, action: Tensor, rewards: Tensor, next_features: Tensor
     ) -> dict[str, Tensor]:
-        with torch.no_grad():
-            next_action = self._target_actor(next_features)
-            next_q = self._target_critics(torch.cat([next_features, next_action], dim=-1))[..., 0]
-            target = td_target(rewards, next_q.float(), self._config.gamma, self._lowest)
-        q = self.critics(torch.cat([features, action], dim=-1))[..., 0].float()
-        losses = critic_losses(q, target)
-        _descend(losses.sum(), self.critics, self._critic_optimiser)
+        judged: list[Tensor] = []
+        targets: list[Tensor] = []
+
+        def loss(rows: slice) -> Tensor:
+            target = self._targets(rewards[:, rows], next_features[rows])
+            q = self._judge(features[rows], action[rows])
+            judged.append(q.detach())
+            targets.append(target)
+            return critic_losses(q, target).sum()
+
+        descend(loss, slices_of(len(features), self._device), self.critics, self._critic_optimiser)
         return {
-            **self._critic_metrics(losses.detach(), q.detach(), target),
+            **self._critic_metrics(torch.cat(judged, dim=1), torch.cat(targets, dim=1)),
             "critic/weight_norm": get_total_norm(list(self.critics.parameters())).detach(),
         }
 
-    def _critic_metrics(self, losses: Tensor, q: Tensor, target: Tensor) -> dict[str, Tensor]:
-        """Return scalars by metric name, of losses `[S]`, values and targets `[S, B]`."""
+    @torch.no_grad()
+    def _targets(self, rewards: Tensor, next_features: Tensor) -> Tensor:
+        """Return what the critics should say `[S, B]`, by the target networks."""
+        next_action = self._target_actor(next_features)
+        next_q = self._target_critics(torch.cat([next_features, next_action], dim=-1))[..., 0]
+        return td_target(rewards, next_q.float(), self._config.gamma, self._lowest)
+
+    def _judge(self, features: Tensor, action: Tensor) -> Tensor:
+        """Return what the online critics say of features `[B, F]` and actions `[B, A]`, `[S, B]`."""
+        return self.critics(torch.cat([features, action], dim=-1))[..., 0].float()
+
+    def _critic_metrics(self, q: Tensor, target: Tensor) -> dict[str, Tensor]:
+        """Return scalars by metric name, of values and targets `[S, B]`."""
         rows = {
-            "loss": losses,
+            "loss": critic_losses(q, target),
             "q_mean": q.mean(dim=1),
             "q_min": q.amin(dim=1),
             "q_max": q.amax(dim=1),
@@ -168,14 +183,19 @@ class DdpgAgent:
         }
 
     def _update_actor(self, features: Tensor) -> dict[str, Tensor]:
-        action = self.actor(features)
-        q = self.critics(torch.cat([features, action], dim=-1))[..., 0].float()
-        loss = actor_loss(q, self._weights, action.float(), self._config.action_l2)
-        _descend(loss, self.actor, self._actor_optimiser)
+        chosen: list[Tensor] = []
+
+        def loss(rows: slice) -> Tensor:
+            action = self.actor(features[rows])
+            q = self._judge(features[rows], action)
+            chosen.append(action.detach())
+            return actor_loss(q, self._weights, action.float(), self._config.action_l2)
+
+        mean_loss = descend(loss, slices_of(len(features), self._device), self.actor, self._actor_optimiser)
         return {
-            "actor/loss": loss.detach(),
+            "actor/loss": mean_loss,
             "actor/weight_norm": get_total_norm(list(self.actor.parameters())).detach(),
-            "actor/saturated_share": (action.detach().abs() > SATURATED).float().mean(),
+            "actor/saturated_share": (torch.cat(chosen).abs() > SATURATED).float().mean(),
         }
 
     def _precision(self) -> AbstractContextManager[Any]:
@@ -186,12 +206,3 @@ def _lowest_targets(config: AgentConfig, streams: int) -> list[float]:
     """Return the lowest target of the task's critic, which is the first, and of the others."""
     task = config.lowest_return or lowest_return(config.gamma)
     return [task] + [config.lowest_auxiliary_return or task] * (streams - 1)
-
-
-def _descend(loss: Tensor, module: torch.nn.Module, optimiser: torch.optim.Optimizer) -> None:
-    """Take one step on the parameters of `module` alone; nothing else gets a gradient."""
-    parameters = list(module.parameters())
-    gradients = torch.autograd.grad(loss, parameters)
-    for parameter, gradient in zip(parameters, gradients, strict=True):
-        parameter.grad = gradient
-    optimiser.step()

@@ -10,6 +10,7 @@ from torch.nn.utils import get_total_norm
 
 from sldr_core.config import AgentConfig
 from sldr_core.nets.adam import Adam
+from sldr_core.nets.descent import descend, slices_of
 from sldr_core.nets.mlp import Mlp
 from sldr_core.nets.normalizer import Normalizer
 from sldr_core.nets.transitions import Transitions
@@ -52,16 +53,16 @@ class InverseLearner:
 
     def update(self, batch: Transitions) -> dict[str, Tensor]:
         """Learn from one batch of the object's own transitions; return scalars by metric name."""
-        with torch.autocast(self._device.type, dtype=torch.bfloat16, enabled=self._autocast):
-            seen = self.normalizer(transition_features(batch.obs, batch.next_obs))
-            loss = (self.net(seen).float() - batch.action).square().mean()
-        parameters = list(self.net.parameters())
-        for parameter, gradient in zip(parameters, torch.autograd.grad(loss, parameters), strict=True):
-            parameter.grad = gradient
-        self._optimiser.step()
+        seen = self.normalizer(transition_features(batch.obs, batch.next_obs))
+
+        def loss(rows: slice) -> Tensor:
+            with torch.autocast(self._device.type, dtype=torch.bfloat16, enabled=self._autocast):
+                return (self.net(seen[rows]).float() - batch.action[rows]).square().mean()
+
+        mean_loss = descend(loss, slices_of(len(seen), self._device), self.net, self._optimiser)
         return {
-            "inverse/loss": loss.detach(),
-            "inverse/weight_norm": get_total_norm(parameters).detach(),
+            "inverse/loss": mean_loss,
+            "inverse/weight_norm": get_total_norm(list(self.net.parameters())).detach(),
         }
 
     def state_dict(self) -> dict[str, Any]:

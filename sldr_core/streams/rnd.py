@@ -15,6 +15,7 @@ from torch import Tensor, nn
 
 from sldr_core.config import AgentConfig, RndConfig
 from sldr_core.nets.adam import Adam
+from sldr_core.nets.descent import descend, slices_of
 from sldr_core.nets.mlp import Mlp
 from sldr_core.nets.normalizer import Normalizer
 from sldr_core.nets.transitions import Transitions
@@ -84,9 +85,13 @@ class RndStream:
     @torch.no_grad()
     def reward(self, batch: Transitions) -> Tensor:
         """Return the standardised summed error `[B]` at the next states, under the sampled goals."""
+        features = self._next_features(batch)
         with self._precision():
-            errors = self.nets.squared_errors(self._next_features(batch))
-        return self.nets.scale(errors.sum(dim=-1, keepdim=True))[:, 0]
+            errors = [
+                self.nets.squared_errors(features[rows]).sum(dim=-1, keepdim=True)
+                for rows in slices_of(len(features), self._device)
+            ]
+        return self.nets.scale(torch.cat(errors))[:, 0]
 
     def object_actions(self, batch: Transitions) -> ObjectActions | None:
         """Return nothing: the rewards come from no actions of an object."""
@@ -94,12 +99,14 @@ class RndStream:
 
     def learn(self, batch: Transitions) -> dict[str, Tensor]:
         """Learn to predict at the next states of the batch."""
-        with self._precision():
-            loss = self.nets.squared_errors(self._next_features(batch)).mean()
-        self._optimiser.zero_grad()
-        loss.backward()
-        self._optimiser.step()
-        return {"rnd/loss": loss.detach()}
+        features = self._next_features(batch)
+
+        def loss(rows: slice) -> Tensor:
+            with self._precision():
+                return self.nets.squared_errors(features[rows]).mean()
+
+        mean_loss = descend(loss, slices_of(len(features), self._device), self.nets.predictor, self._optimiser)
+        return {"rnd/loss": mean_loss}
 
     def state_dict(self) -> dict[str, Any]:
         """Return networks, statistics and optimiser."""

@@ -15,6 +15,7 @@ import torch
 from torch import Tensor
 
 from sldr_core.config import SldrConfig, SldrReward
+from sldr_core.nets.descent import slices_of
 from sldr_core.nets.locomotion_model import LocomotionModel, LocomotionNets
 from sldr_core.nets.transitions import Transitions
 from sldr_core.nets.views import PartView, part_view
@@ -85,8 +86,13 @@ class SldrStream(FixedStream):
     @torch.no_grad()
     def reward(self, batch: Transitions) -> Tensor:
         """Return q in [-1, 0], `[B]`, under the sampled goal."""
+        features, induced = self._features(batch), batch.extra[self._stored]
         with self._precision():
-            return self._reward(self._nets, self._features(batch), batch.extra[self._stored]).clamp(-1.0, 0.0)
+            q = [
+                self._reward(self._nets, features[rows], induced[rows])
+                for rows in slices_of(len(features), self._device)
+            ]
+        return torch.cat(q).clamp(-1.0, 0.0)
 
     @torch.no_grad()
     def object_actions(self, batch: Transitions) -> ObjectActions:

@@ -10,6 +10,7 @@ from torch import Tensor, nn
 
 from sldr_core.agent import DdpgAgent
 from sldr_core.config import AgentConfig, find_task
+from sldr_core.nets import descent
 from sldr_core.nets.mlp import Mlp
 from sldr_core.nets.transitions import Transitions
 from sldr_core.nets.views import view_of
@@ -100,7 +101,11 @@ class PlainDdpg:
         ]
 
 
-def test_learning_equals_a_plain_implementation_with_separate_networks() -> None:
+@pytest.mark.parametrize("slice_rows", [BATCH, 12])
+def test_learning_equals_a_plain_implementation_with_separate_networks(
+    slice_rows: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(descent, "SLICE_ROWS", slice_rows)
     agent = make_agent()
     plain = PlainDdpg(agent)
 

@@ -1,0 +1,59 @@
+"""One step of an optimiser down the mean loss of a batch, which is worked through in slices that a cache can hold.
+
+Of the paper's 4,864 transitions a layer of 256 gives 5 MB, which the next operation would have to fetch from memory
+again. The gradients of the slices add up to those of the batch, so an update stays what it is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import pairwise
+
+import torch
+from torch import Tensor, nn
+
+SLICE_ROWS = 1216
+"""Transitions that are worked on at a time, at most: a quarter of the paper's batch."""
+
+
+def slices_of(rows: int, device: torch.device) -> list[slice]:
+    """Return slices that cover a batch of `rows`, all nearly of the same length.
+
+    A GPU is given the whole batch: there it is starting an operation that takes long.
+    """
+    count = 1 if device.type == "cuda" else -(-rows // SLICE_ROWS)
+    bounds = [rows * index // count for index in range(count + 1)]
+    return [slice(start, stop) for start, stop in pairwise(bounds)]
+
+
+def descend(
+    loss: Callable[[slice], Tensor], slices: list[slice], module: nn.Module, optimiser: torch.optim.Optimizer
+) -> Tensor:
+    """Take one step on the parameters of `module` alone; nothing else gets a gradient.
+
+    Args:
+        loss: gives the mean loss of a slice, a scalar.
+        slices: what they cover is the batch.
+        module: what learns.
+        optimiser: of its parameters.
+
+    Returns:
+        The mean loss of the batch, detached.
+    """
+    parameters = list(module.parameters())
+    rows = slices[-1].stop
+    losses: list[Tensor] = []
+    for part in slices:
+        share = loss(part) * ((part.stop - part.start) / rows)
+        _add_gradients(parameters, torch.autograd.grad(share, parameters), is_first=not losses)
+        losses.append(share.detach())
+    optimiser.step()
+    return torch.stack(losses).sum()
+
+
+def _add_gradients(parameters: list[nn.Parameter], gradients: tuple[Tensor, ...], is_first: bool) -> None:
+    for parameter, gradient in zip(parameters, gradients, strict=True):
+        if is_first or parameter.grad is None:
+            parameter.grad = gradient
+        else:
+            parameter.grad += gradient
