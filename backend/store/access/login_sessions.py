@@ -5,8 +5,9 @@ from __future__ import annotations
 import uuid
 from dataclasses import dataclass
 from datetime import datetime, timedelta
+from typing import Any
 
-from sqlalchemy import ColumnElement, Connection, and_, insert, select, update
+from sqlalchemy import BindParameter, ColumnElement, Connection, and_, bindparam, insert, select, update
 
 from backend.store.access.accounts import Account
 from backend.store.access.owners import belongs_to, read_with_owner
@@ -42,6 +43,20 @@ class LoginSession:
     """What the browser says it is."""
 
 
+def _is_open(at: datetime | BindParameter[Any], idle_since: datetime | BindParameter[Any]) -> ColumnElement[bool]:
+    return and_(
+        login_sessions.c.ended_at.is_(None),
+        login_sessions.c.expires_at > at,
+        login_sessions.c.seen_at > idle_since,
+    )
+
+
+_BY_TOKEN = select(login_sessions).where(
+    login_sessions.c.token_hash == bindparam("token_hash"), _is_open(bindparam("at"), bindparam("idle_since"))
+)
+"""Made once: it is asked for at nearly every request, and making it takes longer than running it."""
+
+
 def start_session(db: Database, account_id: str | None, address: str, agent: str) -> tuple[LoginSession, str]:
     """Sign a browser in; return its session and the secret for its cookie."""
     token = new_secret_token()
@@ -65,8 +80,9 @@ def find_session(db: Database, token: str) -> tuple[LoginSession, Account | None
     """Return the session that a secret belongs to with its account, and note that it was used; None if it is over."""
     with db.read() as conn:
         at = current_time(conn)
-        query = select(login_sessions).where(login_sessions.c.token_hash == hash_token(token), _is_open(at))
-        found = read_with_owner(conn, query)
+        found = read_with_owner(
+            conn, _BY_TOKEN, {"token_hash": hash_token(token), "at": at, "idle_since": at - IDLE_LIFETIME}
+        )
     if found is None:
         return None
     row, owner = found
@@ -81,7 +97,7 @@ def list_sessions(db: Database, account_id: str | None) -> list[LoginSession]:
     with db.read() as conn:
         query = (
             select(login_sessions)
-            .where(belongs_to(login_sessions.c.account_id, account_id), _is_open(current_time(conn)))
+            .where(belongs_to(login_sessions.c.account_id, account_id), _is_open_at(current_time(conn)))
             .order_by(login_sessions.c.seen_at.desc())
         )
         return [_session(row) for row in conn.execute(query)]
@@ -96,7 +112,7 @@ def end_session(db: Database, account_id: str | None, session_id: str) -> None:
     with db.write() as conn:
         at = current_time(conn)
         this = and_(
-            login_sessions.c.id == session_id, belongs_to(login_sessions.c.account_id, account_id), _is_open(at)
+            login_sessions.c.id == session_id, belongs_to(login_sessions.c.account_id, account_id), _is_open_at(at)
         )
         if conn.execute(update(login_sessions).where(this).values(ended_at=at)).rowcount == 0:
             raise NotFound("session", session_id)
@@ -111,18 +127,14 @@ def end_other_sessions(db: Database, account_id: str | None, kept: str | None) -
 def end_all(conn: Connection, account_id: str | None, kept: str | None = None) -> None:
     """Sign every browser of an account out, but one if it is named, within a transaction."""
     at = current_time(conn)
-    these = and_(belongs_to(login_sessions.c.account_id, account_id), _is_open(at))
+    these = and_(belongs_to(login_sessions.c.account_id, account_id), _is_open_at(at))
     if kept is not None:
         these = and_(these, login_sessions.c.id != kept)
     conn.execute(update(login_sessions).where(these).values(ended_at=at))
 
 
-def _is_open(at: datetime) -> ColumnElement[bool]:
-    return and_(
-        login_sessions.c.ended_at.is_(None),
-        login_sessions.c.expires_at > at,
-        login_sessions.c.seen_at > at - IDLE_LIFETIME,
-    )
+def _is_open_at(at: datetime) -> ColumnElement[bool]:
+    return _is_open(at, at - IDLE_LIFETIME)
 
 
 def _session(row: AnyRow) -> LoginSession:

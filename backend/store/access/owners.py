@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from sqlalchemy import Column, ColumnElement, Connection, Select, select
@@ -16,9 +17,11 @@ def belongs_to(owner: Column[Any], account_id: str | None) -> ColumnElement[bool
     return owner.is_(None) if account_id is None else owner == account_id
 
 
-def read_with_owner(conn: Connection, query: Select[Any]) -> tuple[AnyRow, Account | None] | None:
+def read_with_owner(
+    conn: Connection, query: Select[Any], parameters: Mapping[str, Any] | None = None
+) -> tuple[AnyRow, Account | None] | None:
     """Return the one row that a query finds and its account; None if there is none, or the account is disabled."""
-    row = conn.execute(query).one_or_none()
+    row = conn.execute(query, parameters).one_or_none()
     if row is None or row.account_id is None:
         return None if row is None else (row, None)
     owner = account_of(conn.execute(select(accounts).where(accounts.c.id == row.account_id)).one())
