@@ -147,11 +147,11 @@ class DdpgAgent:
             q = self._judge(features[rows], action[rows])
             judged.append(q.detach())
             targets.append(target)
-            return critic_losses(q, target).sum()
+            return critic_losses(q, target)
 
-        descend(loss, slices_of(len(features), self._device), self.critics, self._critic_optimiser)
+        losses = descend(loss, slices_of(len(features), self._device), self.critics, self._critic_optimiser)
         return {
-            **self._critic_metrics(torch.cat(judged, dim=1), torch.cat(targets, dim=1)),
+            **self._critic_metrics(losses, torch.cat(judged, dim=1), torch.cat(targets, dim=1)),
             "critic/weight_norm": get_total_norm(list(self.critics.parameters())).detach(),
         }
 
@@ -166,10 +166,10 @@ class DdpgAgent:
         """Return what the online critics say of features `[B, F]` and actions `[B, A]`, `[S, B]`."""
         return self.critics(torch.cat([features, action], dim=-1))[..., 0].float()
 
-    def _critic_metrics(self, q: Tensor, target: Tensor) -> dict[str, Tensor]:
-        """Return scalars by metric name, of values and targets `[S, B]`."""
+    def _critic_metrics(self, losses: Tensor, q: Tensor, target: Tensor) -> dict[str, Tensor]:
+        """Return scalars by metric name, of losses `[S]`, values and targets `[S, B]`."""
         rows = {
-            "loss": critic_losses(q, target),
+            "loss": losses,
             "q_mean": q.mean(dim=1),
             "q_min": q.amin(dim=1),
             "q_max": q.amax(dim=1),

@@ -32,23 +32,23 @@ def descend(
     """Take one step on the parameters of `module` alone; nothing else gets a gradient.
 
     Args:
-        loss: gives the mean loss of a slice, a scalar.
+        loss: gives the mean loss of a slice, or several that are added up, `[]` or `[S]`.
         slices: what they cover is the batch.
         module: what learns.
         optimiser: of its parameters.
 
     Returns:
-        The mean loss of the batch, detached.
+        The mean losses of the batch, detached, in the shape that `loss` gives.
     """
     parameters = list(module.parameters())
     rows = slices[-1].stop
     losses: list[Tensor] = []
     for part in slices:
         share = loss(part) * ((part.stop - part.start) / rows)
-        _add_gradients(parameters, torch.autograd.grad(share, parameters), is_first=not losses)
+        _add_gradients(parameters, torch.autograd.grad(share.sum(), parameters), is_first=not losses)
         losses.append(share.detach())
     optimiser.step()
-    return torch.stack(losses).sum()
+    return torch.stack(losses).sum(dim=0)
 
 
 def _add_gradients(parameters: list[nn.Parameter], gradients: tuple[Tensor, ...], is_first: bool) -> None:
