@@ -43,17 +43,14 @@ def descend(
     parameters = list(module.parameters())
     rows = slices[-1].stop
     losses: list[Tensor] = []
+    optimiser.zero_grad()
     for part in slices:
         share = loss(part) * ((part.stop - part.start) / rows)
-        _add_gradients(parameters, torch.autograd.grad(share.sum(), parameters), is_first=not losses)
+        for parameter, gradient in zip(parameters, torch.autograd.grad(share.sum(), parameters), strict=True):
+            if parameter.grad is None:
+                parameter.grad = gradient
+            else:
+                parameter.grad += gradient
         losses.append(share.detach())
     optimiser.step()
     return torch.stack(losses).sum(dim=0)
-
-
-def _add_gradients(parameters: list[nn.Parameter], gradients: tuple[Tensor, ...], is_first: bool) -> None:
-    for parameter, gradient in zip(parameters, gradients, strict=True):
-        if is_first or parameter.grad is None:
-            parameter.grad = gradient
-        else:
-            parameter.grad += gradient
