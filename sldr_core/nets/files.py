@@ -38,9 +38,14 @@ def save_tensors(path: Path, content: dict[str, Any]) -> None:
         OSError: the disk is full, and the like.
     """
     # By way of memory: writing to the disk itself, torch.save tells a full one as an internal fault of its own.
+    path.write_bytes(pack_tensors(content))
+
+
+def pack_tensors(content: dict[str, Any]) -> bytes:
+    """Return what a file of tensors and plain values holds."""
     packed = io.BytesIO()
     torch.save(content, packed)
-    path.write_bytes(packed.getbuffer())
+    return packed.getvalue()
 
 
 def load_tensors(path: Path, *kinds: str) -> dict[str, Any]:

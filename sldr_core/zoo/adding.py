@@ -1,7 +1,6 @@
 """Putting a locomotion model into the zoo: halved, measured, and described in the index.
 
-Weights are kept in half precision and loaded as float32, so what is measured is what is shipped. The normalisers stay
-as they are: their sums are too large for half precision.
+Weights are kept in half precision and loaded as float32, so what is measured is what is shipped.
 """
 
 from __future__ import annotations
@@ -15,16 +14,14 @@ from pathlib import Path
 import torch
 
 from sldr_core.disk import write_atomically
-from sldr_core.errors import BadFile
 from sldr_core.nets.locomotion_model import LocomotionModel, Measured, load_locomotion_model
 from sldr_core.training.evaluation import evaluate
+from sldr_core.training.halving import halve
 from sldr_core.zoo.index import Measurement, Origin, ZooModel, checksum, name_of, read_zoo, write_zoo
 
 TEST_EPISODES = 380
 """Episodes that a model is measured over."""
 TEST_SEED = 0
-HALVED = ("policy.", "critic.", "inverse.")
-"""The networks; everything else is small."""
 PACKAGES = ("sldr", "torch", "numpy", "mujoco", "mjbatch", "gymnasium-robotics")
 
 
@@ -74,15 +71,7 @@ def describe_machine() -> str:
 
 
 def _save_halved(model: LocomotionModel, source: Path, path: Path) -> None:
-    model.save(path, change=lambda nets: _halved(nets, source))
-
-
-def _halved(nets: dict[str, torch.Tensor], source: Path) -> dict[str, torch.Tensor]:
-    halved = {name: value.half() if name.startswith(HALVED) else value for name, value in nets.items()}
-    for name, value in halved.items():
-        if not bool(torch.isfinite(value).all()):
-            raise BadFile(f"{source} cannot be kept in half precision: {name} holds a number that is too large.")
-    return halved
+    model.save(path, change=lambda nets: halve(nets, source))
 
 
 def _versions() -> dict[str, str]:

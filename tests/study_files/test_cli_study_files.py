@@ -39,6 +39,18 @@ def test_a_study_is_exported_and_imported(sldr, db: Database, settings: Settings
     assert (code, out.split()[2:]) == (0, ["was", "there", "already."])
 
 
+def test_what_cannot_be_halved_is_named_and_nothing_is_left(
+    sldr, db: Database, settings: Settings, tmp_path: Path
+) -> None:
+    study_id = trained_study(db, settings)
+
+    code, _, err = sldr("export", "study", study_id, str(tmp_path / "out.zip"), "--half")
+
+    assert code == 2
+    assert "locomotion.pt is corrupt or no file of ours" in err
+    assert not list(tmp_path.glob("out*"))
+
+
 def test_a_figure_is_drawn_from_a_study_file_alone(
     sldr, exported: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import platform
 from pathlib import Path
@@ -128,6 +129,33 @@ def test_a_smaller_file_has_the_episodes_of_fewer_runs(
         names = {file.name for file in list_files(db, run.run_id)}
         assert names - {"policy-best.pt"} == ({"episodes-epoch-0003.npz"} if run.seed in seeds else set())
         assert list_episodes(db, run.run_id, EpisodeFilter(), "epoch", True, 10, 0).total == (run.seed in seeds)
+
+
+def test_weights_may_be_made_smaller_on_the_way_and_nothing_else(
+    db: Database, settings: Settings, exported: Path, tmp_path: Path
+) -> None:
+    imported = import_study(db, settings, exported, "It")
+
+    pack_study(
+        db, settings, imported.study_id, tmp_path / "smaller.zip", read_weights=lambda path: path.read_bytes()[1:]
+    )
+
+    by_length = {}
+    for which, source in (("whole", exported), ("smaller", tmp_path / "smaller.zip")):
+        for name, content in members_of(source).items():
+            by_length.setdefault(name.partition("/")[2].partition("/")[2], {}).setdefault(which, []).append(
+                len(content)
+            )
+    for name, lengths in by_length.items():
+        less = 1 if name.endswith(".pt") else 0
+        if name:
+            assert sorted(lengths["smaller"]) == sorted(length - less for length in lengths["whole"]), name
+    listed = json.loads(members_of(tmp_path / "smaller.zip")["study.json"])
+    files = {f"runs/{run['key']}/{file['name']}": file for run in listed["runs"] for file in run["files"]}
+    assert len(files) == 9
+    for name, file in files.items():
+        content = members_of(tmp_path / "smaller.zip")[name]
+        assert (file["size"], file["sha256"]) == (len(content), hashlib.sha256(content).hexdigest())
 
 
 def test_each_run_tells_what_trained_it_and_names_nobody(

@@ -10,6 +10,7 @@ from backend.store.study_files.records import Place
 from sldr_core.episodes import epoch_of
 
 BEST_POLICY, NEWEST_POLICY, LOCOMOTION = "policy-best.pt", "policy-newest.pt", "locomotion.pt"
+EPISODES = "episodes"
 KINDS = {BEST_POLICY: "policy", NEWEST_POLICY: "policy", LOCOMOTION: "locomotion"}
 
 EpisodeChoice = Literal["every", "first-seed", "none"]
@@ -45,7 +46,7 @@ def choose_files(files: Sequence[FileRow], with_episodes: bool) -> list[FileRow]
 
 def kind_of(name: str) -> Any:
     """Return what a file holds, as the study file's list says it."""
-    return KINDS.get(name, "episodes")
+    return KINDS.get(name, EPISODES)
 
 
 def _cell(place: Place) -> tuple[str, str, str]:

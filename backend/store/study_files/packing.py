@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from importlib.metadata import version
@@ -16,14 +16,14 @@ from sqlalchemy import Connection, select
 
 from backend.store.database import Database
 from backend.store.errors import Refused
-from backend.store.files import list_files
+from backend.store.files import FileRow, list_files
 from backend.store.locomotion import TRAIN, ZOO
 from backend.store.metrics import read_metrics
 from backend.store.settings import Settings
 from backend.store.states import RunState
 from backend.store.storage import FileStorage
 from backend.store.studies.launch import find_study
-from backend.store.study_files.chosen_files import EpisodeChoice, choose_files, keeps_episodes, kind_of
+from backend.store.study_files.chosen_files import EPISODES, EpisodeChoice, choose_files, keeps_episodes, kind_of
 from backend.store.study_files.machines import count_machines, find_machines
 from backend.store.study_files.records import (
     FORMAT,
@@ -47,6 +47,9 @@ from backend.store.tables import AnyRow, episodes, run_events, run_needs, run_pr
 from sldr_core.disk import write_atomically
 
 PACKAGES = ("sldr", "torch", "numpy", "mujoco", "mjbatch", "gymnasium-robotics")
+
+
+ReadWeights = Callable[[Path], bytes]
 
 
 @dataclass(frozen=True)
@@ -79,7 +82,12 @@ class Members:
 
 
 def pack_study(
-    db: Database, settings: Settings, study_id: str, out: Path, episodes_of: EpisodeChoice = "every"
+    db: Database,
+    settings: Settings,
+    study_id: str,
+    out: Path,
+    episodes_of: EpisodeChoice = "every",
+    read_weights: ReadWeights = Path.read_bytes,
 ) -> Packed:
     """Write a study file.
 
@@ -89,6 +97,7 @@ def pack_study(
         study_id: the study.
         out: the file to write.
         episodes_of: whose recorded episodes are packed; they are a good part of the file.
+        read_weights: how policies and locomotion models are read; something else may make them smaller on the way.
 
     Raises:
         NotFound: there is no such study.
@@ -105,10 +114,11 @@ def pack_study(
     def write(path: Path) -> None:
         with ZipFile(path, "w", ZIP_DEFLATED, compresslevel=9) as archive:
             packed_places = {row.id: members.places[row.id] for row in members.robots}
-            records = [
-                _pack_run(db, storage, archive, row, members, keeps_episodes(episodes_of, row.id, packed_places))
-                for row in packed_runs
-            ]
+            records: list[RunRecord] = []
+            for row in packed_runs:
+                files = choose_files(list_files(db, row.id), keeps_episodes(episodes_of, row.id, packed_places))
+                packed_files = [_pack_file(storage, archive, file, read_weights) for file in files]
+                records.append(_pack_run(db, archive, row, members, packed_files))
             content = StudyFile(
                 format=FORMAT,
                 made_at=datetime.now(UTC),
@@ -156,16 +166,20 @@ def _spec(values: Mapping[str, Any]) -> SpecRecord:
     )
 
 
+def _pack_file(storage: FileStorage, archive: ZipFile, file: FileRow, read_weights: ReadWeights) -> RunFile:
+    kind, source = kind_of(file.name), storage.bring(file)
+    content = source.read_bytes() if kind == EPISODES else read_weights(source)
+    # It is packed already.
+    archive.writestr(file_member(file.run_id, file.name), content, ZIP_STORED)
+    return RunFile(name=file.name, kind=kind, size=len(content), sha256=hashlib.sha256(content).hexdigest())
+
+
 def _pack_run(
-    db: Database, storage: FileStorage, archive: ZipFile, row: AnyRow, members: Members, with_episodes: bool
+    db: Database, archive: ZipFile, row: AnyRow, members: Members, packed_files: Sequence[RunFile]
 ) -> RunRecord:
     curves = json.dumps(_curves(db, row.id).model_dump(), separators=(",", ":")).encode()
     archive.writestr(metrics_member(row.id), curves)
-    files = choose_files(list_files(db, row.id), with_episodes)
-    for file in files:
-        # They are packed already.
-        archive.write(storage.bring(file), file_member(row.id, file.name), ZIP_STORED)
-    kept = {file.name for file in files}
+    kept = {file.name for file in packed_files}
     with db.read() as conn:
         progress = conn.execute(select(run_progress).where(run_progress.c.run_id == row.id)).mappings().one_or_none()
         shown = conn.execute(select(episodes).where(episodes.c.run_id == row.id, episodes.c.file.in_(kept)))
@@ -186,7 +200,7 @@ def _pack_run(
         progress=None if progress is None else ProgressRecord(**_fields(ProgressRecord, progress)),
         events=events,
         episodes=listed,
-        files=[RunFile(name=file.name, kind=kind_of(file.name), size=file.size, sha256=file.sha256) for file in files],
+        files=list(packed_files),
         metrics=Member(size=len(curves), sha256=hashlib.sha256(curves).hexdigest()),
     )
 

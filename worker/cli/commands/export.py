@@ -169,7 +169,10 @@ def bundle(out: Path, runs: Runs, view: View, anonymous: bool = False) -> int:
 
 
 def study(
-    study: tyro.conf.Positional[str], out: tyro.conf.Positional[Path], episodes_of: EpisodeChoice = "every"
+    study: tyro.conf.Positional[str],
+    out: tyro.conf.Positional[Path],
+    episodes_of: EpisodeChoice = "every",
+    half: bool = False,
 ) -> int:
     """Pack a study into one file that `sldr import` takes in elsewhere: curves, configs, policies, a few episodes.
 
@@ -178,11 +181,16 @@ def study(
         out: The .zip file to write.
         episodes_of: Whose recorded episodes go in: those of every run, of the first seed of each method, or none. They
             are a good part of the file.
+        half: Keep the weights of policies and locomotion models in half precision: they take half the room, and act
+            nearly alike.
     """
     _check_place(out)
+    read_weights = Path.read_bytes
+    if half:
+        from sldr_core.training.halving import read_halved as read_weights
     settings = load_settings()
     with closing(open_database(settings)) as db:
-        packed = pack_study(db, settings, study, out, episodes_of)
+        packed = pack_study(db, settings, study, out, episodes_of, read_weights)
     left_out = f", {packed.left_out} places without a run that has succeeded left out" if packed.left_out else ""
     print(f"{out}: {packed.runs} runs, {packed.size / 1e6:.1f} MB{left_out}")
     return 0
