@@ -165,7 +165,7 @@ class RobotObserver:
 
 
 class FingerHold:
-    """Keep the fingers shut after each control step, and bring derived values up to date."""
+    """Keep the fingers shut after each control step, and bring what is read off the scene up to date."""
 
     def __init__(self, simulation: Simulation) -> None:
         self._simulation = simulation
@@ -175,4 +175,4 @@ class FingerHold:
     def apply(self) -> None:
         """Write the fingers' positions."""
         self._simulation.qpos[:, self._qpos] = 0.0
-        self._simulation.forward()
+        self._simulation.forward_motion()

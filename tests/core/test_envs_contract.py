@@ -124,6 +124,17 @@ def test_object_steps_equal_a_plain_mujoco_loop() -> None:
 
 
 @every_actor
+def test_leaving_contacts_out_changes_nothing_that_is_read_or_stepped_on(actor: dict[str, Any]) -> None:
+    ours, whole = (make_envs("FetchPush", num_envs=3, seed=4, **actor) for _ in range(2))
+    whole.simulation.forward_motion = whole.simulation.forward
+    actions = actions_of(ours, 30)
+
+    np.testing.assert_array_equal(play(ours, actions), play(whole, actions))
+
+    np.testing.assert_array_equal(ours.simulation.snapshot(), whole.simulation.snapshot())
+
+
+@every_actor
 def test_resetting_some_simulations_leaves_the_others_as_they_were(actor: dict[str, Any]) -> None:
     envs = make_envs("FetchPush", num_envs=4, **actor)
     play(envs, actions_of(envs, 3))
