@@ -51,9 +51,12 @@ def read_view(
     statistic: Annotated[Statistic, Query(description="`seeds` shows each by itself.")] = "median",
     level: Annotated[float, Query(ge=0.5, le=0.999, description="Of confidence intervals.")] = 0.95,
     seeds: Annotated[bool, Query(description="Whether to add each seed's own curve.")] = False,
+    drop_ended: Annotated[
+        bool, Query(description="Whether a run that is done counts no more behind its end; else its last value does.")
+    ] = False,
 ) -> CurveView:
     """Return how they are looked at."""
-    return CurveView(metric=metric, x=x, statistic=statistic, level=level, with_seeds=seeds)
+    return CurveView(metric=metric, x=x, statistic=statistic, level=level, with_seeds=seeds, drop_ended=drop_ended)
 
 
 def read_look(

@@ -17,7 +17,8 @@ class Comparisons:
     """Everything that several seeds say together; `client.comparisons`.
 
     Every question takes the same filters, as in the page's address: `phase`, `task`, `method`, `preset`, `run`
-    (each but `phase` one or several) and `study`; and the same view: `metric`, `x`, `statistic`, `level`, `seeds`.
+    (each but `phase` one or several) and `study`; and the same view: `metric`, `x`, `statistic`, `level`, `seeds`,
+    `drop_ended`.
     """
 
     def __init__(self, connection: Connection) -> None:

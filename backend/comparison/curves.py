@@ -28,6 +28,7 @@ from backend.statistics.bands import BANDS, SEEDS_FOR_BAND
 from backend.store.compared_runs import ComparedRun, RunChoice
 from backend.store.curves import Points
 from backend.store.database import Database
+from backend.store.states import RunState
 
 PLACES_AT_MOST = 400
 """Places of one curve in an answer; more than a panel has pixels helps nobody."""
@@ -46,6 +47,8 @@ class CurveView:
     """Share of the confidence interval, where the statistic has one."""
     with_seeds: bool = False
     """Whether to add each seed's own curve."""
+    drop_ended: bool = False
+    """Whether a run that is done counts no more behind its end; else its last value does."""
 
 
 def compare_curves(db: Database, memory: ComparisonMemory, choice: RunChoice, view: CurveView) -> CurveComparison:
@@ -82,9 +85,10 @@ def _compare(selection: Selection, view: CurveView, version: str) -> CurveCompar
 
 
 def _group_curve(key: str, runs: list[ComparedRun], points: Mapping[str, Points], view: CurveView) -> GroupCurve:
-    curves = {run.id: Curve(points[run.id].axes[view.x], points[run.id].value) for run in runs if len(points[run.id])}
-    aligned = align(list(curves.values()), common_grid(list(curves.values()), PLACES_AT_MOST))
+    curves = [_curve(run, points[run.id], view) for run in runs if len(points[run.id])]
+    aligned = align(curves, common_grid(curves, PLACES_AT_MOST))
     n, n_at = len(curves), aligned.n
+    holds = bool((n_at > aligned.measured).any())
     has_band = view.statistic != "seeds" and n >= SEEDS_FOR_BAND
     centre, low, high = _band(aligned, view) if has_band else ([], [], [])
     shows_seeds = view.with_seeds or not has_band
@@ -98,9 +102,14 @@ def _group_curve(key: str, runs: list[ComparedRun], points: Mapping[str, Points]
         n_at=n_at.tolist(),
         has_band=has_band,
         losses=_losses(aligned, centre),
-        legend=words.legend(view.statistic, view.level, n, int(n_at.min(initial=n))),
+        holds=holds,
+        legend=words.legend(view.statistic, view.level, n, int(n_at.min(initial=n)), holds),
         members=[_member(run, points[run.id], view.x, shows_seeds) for run in runs],
     )
+
+
+def _curve(run: ComparedRun, points: Points, view: CurveView) -> Curve:
+    return Curve(points.axes[view.x], points.value, run.state is RunState.SUCCEEDED and not view.drop_ended)
 
 
 def _band(aligned: Aligned, view: CurveView) -> tuple[Numbers, Numbers, Numbers]:

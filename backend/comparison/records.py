@@ -58,16 +58,16 @@ class Member:
 
 @dataclass(frozen=True, config=RECORD)
 class CurveLoss:
-    """Where a curve loses seeds."""
+    """Where seeds of a curve end while others go on."""
 
     x: float
     """The last place that has them all."""
     y: float | None
     """The curve's centre there."""
     before: int
-    """Seeds up to there."""
+    """Seeds that are still trained there."""
     after: int
-    """Seeds behind it."""
+    """Seeds that still are behind it."""
 
 
 @dataclass(frozen=True, config=RECORD)
@@ -85,10 +85,12 @@ class GroupCurve:
     """Lower end of the band; null where it has fewer than three seeds."""
     high: Numbers
     n_at: list[int]
-    """Seeds at each place."""
+    """Seeds that count at each place."""
     has_band: bool
     """False if the seeds' own lines are to be drawn: asked for, or too few for a band."""
     losses: list[CurveLoss]
+    holds: bool
+    """Whether seeds that are done count on somewhere with their last value."""
     legend: str
     """Statistic, number of seeds and level in words."""
     members: list[Member]

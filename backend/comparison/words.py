@@ -38,12 +38,16 @@ def describe(metric: str, x: Axis, statistic: Statistic, level: float) -> Words:
     )
 
 
-def legend(statistic: Statistic, level: float, n: int, fewest: int) -> str:
+HELD = "those that are done with their last value"
+
+
+def legend(statistic: Statistic, level: float, n: int, fewest: int, holds: bool) -> str:
     """Return what a curve shows: statistic, number of seeds and level.
 
     Args:
         n: seeds of the curve.
         fewest: seeds where it has the fewest.
+        holds: whether seeds that are done count on somewhere.
     """
     if n == 0:
         return "nothing logged yet"
@@ -53,7 +57,7 @@ def legend(statistic: Statistic, level: float, n: int, fewest: int) -> str:
     if n < SEEDS_FOR_BAND:
         return f"{seeds}, each by itself: too few for a band"
     counted = seeds if fewest == n else f"{fewest} to {seeds}"
-    return f"{CENTRES[statistic]} of {counted}{_band(statistic, level)}"
+    return f"{CENTRES[statistic]} of {counted}{f', {HELD}' if holds else ''}{_band(statistic, level)}"
 
 
 def _band(statistic: Statistic, level: float) -> str:

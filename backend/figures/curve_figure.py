@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from backend.comparison.records import CurveComparison, Group, GroupCurve, Panel
-from backend.comparison.words import CENTRES
+from backend.comparison.words import CENTRES, HELD
 from backend.figures.layout import add_legend, panel_grid
 from backend.figures.styles import Size, color_of, dash_of
 from backend.statistics.bands import SEEDS_FOR_BAND
@@ -50,7 +50,8 @@ def caption(comparison: CurveComparison) -> str:
         statistic = CENTRES["seeds"]
     elif not all(curve.has_band for curve in curves):
         statistic += f", {CENTRES['seeds']} where there are fewer than {SEEDS_FOR_BAND}"
-    return f"{statistic[:1].upper()}{statistic[1:]}; seeds: {seeds}"
+    held = f", {HELD}" if any(curve.holds and curve.has_band for curve in curves) else ""
+    return f"{statistic[:1].upper()}{statistic[1:]}; seeds: {seeds}{held}"
 
 
 def _draw_panel(axes: Axes, panel: Panel, groups: dict[str, Group], size: Size) -> None:

@@ -105,7 +105,11 @@ def _against_physics(task: str) -> Measured:
         shares.append(stepping.total_s / whole_s)
         forward.append(bringing.total_s / whole_s)
     further = statistics.median(forward)
-    told = f"; {further:.3f} more is bringing positions up to date after each step, as in gymnasium-robotics" if further else ""
+    told = (
+        f"; {further:.3f} more is bringing positions up to date after each step, as in gymnasium-robotics"
+        if further
+        else ""
+    )
     return row(
         f"{task}: collecting, against mjbatch stepping alone",
         "x",

@@ -20,7 +20,7 @@ from backend.store.database import Database
 from backend.store.errors import NotFound
 from backend.store.launches import launch
 from backend.store.metrics import MetricPoint, append_metrics, read_metrics
-from backend.store.outcomes import HandedBack
+from backend.store.outcomes import Failed, HandedBack, Succeeded
 from backend.store.queue import finish
 
 SUCCESS = "test/success_rate"
@@ -84,6 +84,32 @@ def test_ragged_seeds_are_counted_where_they_are_and_the_loss_is_marked(db: Data
     assert curve.n_at == [4, 4, 3, 3]
     assert [(loss.x, loss.y, loss.before, loss.after) for loss in curve.losses] == [(8.0, 0.2, 4, 3)]
     assert curve.legend.startswith("median of 3 to 4 seeds")
+
+
+def test_a_run_that_is_done_keeps_its_last_value_and_one_that_failed_does_not(db: Database):
+    launch(db, order(seeds=(0, 1, 2, 3)))
+    for last, outcome in (
+        (2, Succeeded(0.2)),
+        (2, Failed("It broke.", False)),
+        (4, Succeeded(0.4)),
+        (4, Succeeded(0.4)),
+    ):
+        claim = claim_next(db)
+        log(db, claim, {cycle: cycle / 10 for cycle in range(1, last + 1)})
+        finish(db, claim, outcome)
+
+    curve, dropped = only_curve(db), only_curve(db, drop_ended=True)
+
+    assert (curve.n_at, dropped.n_at) == ([4, 4, 3, 3], [4, 4, 2, 2])
+    assert curve.centre == pytest.approx([0.1, 0.2, 0.3, 0.4])
+    assert curve.low == pytest.approx([0.1, 0.2, 0.25, 0.3])
+    assert [(loss.x, loss.before, loss.after) for loss in curve.losses] == [(8.0, 4, 2)]
+    assert [(loss.x, loss.before, loss.after) for loss in dropped.losses] == [(8.0, 4, 2)]
+    assert curve.legend == (
+        "median of 3 to 4 seeds, those that are done with their last value, band: quartiles (25 to 75 %)"
+    )
+    assert dropped.legend == "median of 2 to 4 seeds, band: quartiles (25 to 75 %)"
+    assert (curve.holds, dropped.holds) == (True, False)
 
 
 def test_below_three_seeds_each_is_drawn_by_itself(db: Database):

@@ -44,6 +44,7 @@ CURVES = CurveComparison(
                     n_at=[3, 2],
                     has_band=True,
                     losses=[CurveLoss(x=1.0, y=1 / 3, before=3, after=2)],
+                    holds=False,
                     legend="median of 2 to 3 seeds",
                     members=[Member(run_id="run-of-alice", seed=0, state=DONE, points=2, x=None, y=None)],
                 )
@@ -62,6 +63,7 @@ CURVES = CurveComparison(
                     n_at=[1],
                     has_band=False,
                     losses=[],
+                    holds=False,
                     legend="1 seed",
                     members=[Member(run_id="other", seed=4, state=DONE, points=1, x=[1.0], y=[0.3])],
                 )

@@ -36,6 +36,15 @@ def test_a_value_holds_until_the_next_and_neither_before_the_first_nor_after_the
     assert_array_equal(aligned.n, [0, 1, 1, 1, 0])
 
 
+def test_the_last_value_of_a_training_that_is_done_holds_to_the_end_of_the_grid():
+    done, going = Curve(np.array([1.0, 2.0]), np.array([10.0, 20.0]), holds=True), curve((1, 5), (2, 6), (4, 7))
+    aligned = align([done, going], np.array([0.0, 1, 2, 3, 4]))
+    assert_array_equal(aligned.y, [[NAN, 10, 20, 20, 20], [NAN, 5, 6, 6, 7]])
+    assert_array_equal(aligned.n, [0, 2, 2, 2, 2])
+    assert_array_equal(aligned.measured, [0, 2, 2, 1, 1])
+    assert find_losses(aligned) == [Loss(2.0, 2, 1)]
+
+
 def test_ragged_curves_are_aligned_as_by_a_plain_loop():
     rng = np.random.default_rng(3)
     curves = [Curve(np.sort(rng.random(n)), rng.random(n)) for n in (1, 4, 9, 17)]

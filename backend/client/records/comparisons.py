@@ -47,6 +47,9 @@ class Curve:
     """Lower end of the band; None where it has fewer than three seeds."""
     high: Numbers
     n_at: list[int]
+    """Seeds that count at each place."""
+    holds: bool
+    """Whether seeds that are done count on somewhere with their last value."""
     legend: str
     """Statistic, number of seeds and level in words."""
     members: list[Member]

@@ -1911,17 +1911,17 @@ export interface components {
         };
         /**
          * CurveLoss
-         * @description Where a curve loses seeds.
+         * @description Where seeds of a curve end while others go on.
          */
         CurveLoss: {
             /**
              * After
-             * @description Seeds behind it.
+             * @description Seeds that still are behind it.
              */
             after: number;
             /**
              * Before
-             * @description Seeds up to there.
+             * @description Seeds that are still trained there.
              */
             before: number;
             /**
@@ -2233,6 +2233,11 @@ export interface components {
             /** High */
             high: (number | null)[];
             /**
+             * Holds
+             * @description Whether seeds that are done count on somewhere with their last value.
+             */
+            holds: boolean;
+            /**
              * Legend
              * @description Statistic, number of seeds and level in words.
              */
@@ -2253,7 +2258,7 @@ export interface components {
             n: number;
             /**
              * N At
-             * @description Seeds at each place.
+             * @description Seeds that count at each place.
              */
             n_at: number[];
             /** X */
@@ -6120,6 +6125,8 @@ export interface operations {
                 level?: number;
                 /** @description Whether to add each seed's own curve. */
                 seeds?: boolean;
+                /** @description Whether a run that is done counts no more behind its end; else its last value does. */
+                drop_ended?: boolean;
             };
             header?: never;
             path?: never;
@@ -6225,6 +6232,8 @@ export interface operations {
                 level?: number;
                 /** @description Whether to add each seed's own curve. */
                 seeds?: boolean;
+                /** @description Whether a run that is done counts no more behind its end; else its last value does. */
+                drop_ended?: boolean;
             };
             header?: never;
             path?: never;
@@ -6332,6 +6341,8 @@ export interface operations {
                 level?: number;
                 /** @description Whether to add each seed's own curve. */
                 seeds?: boolean;
+                /** @description Whether a run that is done counts no more behind its end; else its last value does. */
+                drop_ended?: boolean;
                 /** @description Learning curves, or bars of best models. */
                 kind?: "curves" | "best";
                 /** @description One column of a paper, both, or a slide. */
@@ -6529,6 +6540,8 @@ export interface operations {
                 level?: number;
                 /** @description Whether to add each seed's own curve. */
                 seeds?: boolean;
+                /** @description Whether a run that is done counts no more behind its end; else its last value does. */
+                drop_ended?: boolean;
                 /** @description Learning curves, or bars of best models. */
                 kind?: "curves" | "best";
                 /** @description One column of a paper, both, or a slide. */

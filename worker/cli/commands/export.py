@@ -88,6 +88,8 @@ class Shown:
     """Of confidence intervals."""
     seeds: bool = False
     """Whether each seed is drawn as well."""
+    drop_ended: bool = False
+    """Whether a run that is done counts no more behind its end; else its last value does."""
     width: Width = "double"
     """One column of a paper, both, or a slide."""
 
@@ -95,13 +97,13 @@ class Shown:
         """Return the view as comparisons take it."""
         if not 0.5 <= self.level <= 0.999:
             raise InvalidConfig({"level": f"it must lie between 0.5 and 0.999, got {self.level}"})
-        return CurveView(self.metric, self.x, self.statistic, self.level, self.seeds)
+        return CurveView(self.metric, self.x, self.statistic, self.level, self.seeds, self.drop_ended)
 
     def question(self) -> dict[str, Any]:
         """Return the view as a service takes it."""
         view = self.view()
-        of_curves = {"metric": view.metric, "x": view.x, "statistic": view.statistic, "seeds": view.with_seeds}
-        return {"level": view.level, "width": self.width, **of_curves}
+        of_curves = {"metric": view.metric, "x": view.x, "seeds": view.with_seeds, "drop_ended": view.drop_ended}
+        return {"statistic": view.statistic, "level": view.level, "width": self.width, **of_curves}
 
 
 Runs = tyro.conf.OmitArgPrefixes[Chosen]

@@ -7,7 +7,15 @@ function questionOf(address: string): URLSearchParams {
 
 test('a figure is drawn of what the page shows', () => {
   const address = figureAddress(
-    { tasks: 'FetchPush,FetchSlide', statistic: 'iqm', level: 0.9, x: 'env_steps', logx: 'yes', pin: 'her' },
+    {
+      tasks: 'FetchPush,FetchSlide',
+      statistic: 'iqm',
+      level: 0.9,
+      x: 'env_steps',
+      drop: 'yes',
+      pin: 'her',
+      logx: 'yes',
+    },
     'svg',
     'single',
   );
@@ -19,6 +27,7 @@ test('a figure is drawn of what the page shows', () => {
     statistic: 'iqm',
     level: '0.9',
     x: 'env_steps',
+    drop_ended: 'true',
     log_x: 'true',
     log_y: 'false',
     width: 'single',

@@ -15,6 +15,7 @@ test('a whole view is read from its address', () => {
     statistic: 'iqm',
     logx: 'yes',
     seeds: 'yes',
+    drop: 'yes',
     hover: 'run',
     pin: 'her-sldr',
     tables: 'FetchPush,FetchSlide',

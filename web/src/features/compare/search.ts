@@ -47,6 +47,8 @@ export interface CompareSearch {
   readonly logy?: 'yes';
   /** Whether the seeds are drawn faintly behind their centre. */
   readonly seeds?: 'yes';
+  /** Whether a run that is done counts no more behind its end; else its last value does. */
+  readonly drop?: 'yes';
   /** Whether the mouse picks out single runs, instead of methods. */
   readonly hover?: 'run';
   /** The group that stands out until it is let go. */
@@ -93,6 +95,7 @@ export function readCompareSearch(raw: Record<string, unknown>): CompareSearch {
     logx: isYes('logx'),
     logy: isYes('logy'),
     seeds: isYes('seeds'),
+    drop: isYes('drop'),
     hover: raw.hover === 'run' ? 'run' : undefined,
     pin: text('pin'),
     from: isWindow ? from : undefined,

@@ -7,13 +7,14 @@ import { type CompareSearch, USUAL_LEVEL, USUAL_METRIC } from '../search';
 import { choiceOf } from './choice';
 
 /** How the curves are looked at, as the server is asked for it. */
-export function viewOf({ metric, x, statistic, level, seeds }: CompareSearch) {
+export function viewOf({ metric, x, statistic, level, seeds, drop }: CompareSearch) {
   return {
     metric: metric ?? USUAL_METRIC,
     x: x ?? 'epoch',
     statistic: statistic ?? 'median',
     level: level ?? USUAL_LEVEL,
     seeds: seeds === 'yes',
+    drop_ended: drop === 'yes',
   } as const;
 }
 

@@ -46,7 +46,12 @@ export function CurveControls({ search, onShow }: Props) {
       />
       <Flag label="Log x" name="logx" search={search} onShow={onShow} />
       <Flag label="Log y" name="logy" search={search} onShow={onShow} />
-      {statistic !== 'seeds' && <Flag label="Seeds behind" name="seeds" search={search} onShow={onShow} />}
+      {statistic !== 'seeds' && (
+        <>
+          <Flag label="Seeds behind" name="seeds" search={search} onShow={onShow} />
+          <Flag label="Drop ended runs" name="drop" search={search} onShow={onShow} />
+        </>
+      )}
       {(statistic === 'seeds' || search.seeds === 'yes') && (
         <Checkbox
           size="xs"
@@ -68,7 +73,7 @@ export function CurveControls({ search, onShow }: Props) {
 
 interface FlagProps extends Props {
   label: string;
-  name: 'logx' | 'logy' | 'seeds';
+  name: 'logx' | 'logy' | 'seeds' | 'drop';
 }
 
 function Flag({ label, name, search, onShow }: FlagProps) {
