@@ -20,11 +20,15 @@ def save_untrained_model(path: Path, task: str) -> Path:
     return path
 
 
-def paper_training(root: Path, task: str, method: str, settings: Settings) -> Parts:
-    """Return a robot's training of the paper's sizes, but for some settings, that has collected one cycle."""
+def paper_training(root: Path, task: str, method: str, settings: Settings, model: Path | None = None) -> Parts:
+    """Return a robot's training of the paper's sizes, but for some settings, that has collected one cycle.
+
+    Args:
+        model: the locomotion model; one of the paper's size that has learnt nothing if None.
+    """
     config = make_config(task, "manipulation", method, 0, "paper", settings)
     directory = Path(tempfile.mkdtemp(dir=root))
-    models = [save_untrained_model(directory / "locomotion.pt", task)] if config.needs_locomotion else []
+    models = [model or save_untrained_model(directory / "locomotion.pt", task)] if config.needs_locomotion else []
     parts = build_training(config, directory, models, gate_waived=True)
     collect_random(parts, lambda: None)
     return parts
