@@ -1,4 +1,4 @@
-/** Paint curves of many runs on a uPlot canvas: bands, seeds, centres, and where a curve loses seeds. */
+/** Paint curves of many runs on a uPlot canvas: bands, seeds, centres, and where seeds have ended. */
 import uPlot from 'uplot';
 import { type Curve, type Emphasis, isFaded, type Values } from '@/lib/curves';
 import type { LineStyle } from '@/lib/palette';
@@ -7,7 +7,7 @@ const FADED = 0.14;
 const BAND = 0.17;
 const SEED = 0.38;
 const RAW = 0.32;
-/** Half the height of the mark where a curve loses seeds [px]. */
+/** Half the height of the mark where seeds have ended [px]. */
 const LOSS = 4;
 /** Points this few are drawn as dots, as a line of them may have no length. */
 const FEW_POINTS = 2;

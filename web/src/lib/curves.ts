@@ -15,7 +15,7 @@ export interface SeedCurve {
   readonly raw: Values;
 }
 
-/** A place where a curve goes on with fewer seeds. */
+/** A place where seeds of a curve have ended and others go on. */
 export interface SeedLoss {
   readonly x: number;
   readonly y: number;

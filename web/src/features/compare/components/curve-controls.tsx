@@ -44,22 +44,24 @@ export function CurveControls({ search, onShow }: Props) {
         weight={search.smooth ?? 0}
         onWeight={(next) => onShow({ smooth: next === 0 ? undefined : next })}
       />
-      <Flag label="Log x" name="logx" search={search} onShow={onShow} />
-      <Flag label="Log y" name="logy" search={search} onShow={onShow} />
-      {statistic !== 'seeds' && (
-        <>
-          <Flag label="Seeds behind" name="seeds" search={search} onShow={onShow} />
-          <Flag label="Drop ended runs" name="drop" search={search} onShow={onShow} />
-        </>
-      )}
-      {(statistic === 'seeds' || search.seeds === 'yes') && (
-        <Checkbox
-          size="xs"
-          label="Point at single runs"
-          checked={search.hover === 'run'}
-          onChange={(event) => onShow({ hover: event.currentTarget.checked ? 'run' : undefined })}
-        />
-      )}
+      <div className={classes.flags}>
+        <Flag label="Log x" name="logx" search={search} onShow={onShow} />
+        <Flag label="Log y" name="logy" search={search} onShow={onShow} />
+        {statistic !== 'seeds' && (
+          <>
+            <Flag label="Seeds behind" name="seeds" search={search} onShow={onShow} />
+            <Flag label="Drop ended runs" name="drop" search={search} onShow={onShow} />
+          </>
+        )}
+        {(statistic === 'seeds' || search.seeds === 'yes') && (
+          <Checkbox
+            size="xs"
+            label="Point at single runs"
+            checked={search.hover === 'run'}
+            onChange={(event) => onShow({ hover: event.currentTarget.checked ? 'run' : undefined })}
+          />
+        )}
+      </div>
       {search.from === undefined ? (
         <span className={`faint ${classes.hint}`}>Drag in a panel to zoom all of them; a double click shows all.</span>
       ) : (

@@ -42,7 +42,7 @@ export function CurvesTab({ search, comparison, onShow }: Props) {
 /** What line and band are; smoothing changes what is seen, so it is told too. */
 function legendWords({ words }: CurveComparison, weight: number): string {
   const smoothed = weight > 0 ? `; smoothed by ${weight.toFixed(2)}, the computed line faint behind` : '';
-  return `${words.metric}: ${words.statistic}${smoothed}. A cross marks where a curve loses seeds.`;
+  return `${words.metric}: ${words.statistic}${smoothed}. A cross marks where seeds have ended and others go on.`;
 }
 
 function usePanelView(search: CompareSearch, comparison: CurveComparison, onShow: Props['onShow']) {
