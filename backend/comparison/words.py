@@ -30,15 +30,15 @@ CENTRES: Mapping[Statistic, str] = {
     "seeds": "each seed by itself",
 }
 
+HELD = "those that are done with their last value"
+"""How seeds count that have ended while others of their curve go on."""
+
 
 def describe(metric: str, x: Axis, statistic: Statistic, level: float) -> Words:
     """Return a view in words."""
     return Words(
         metric=METRICS.get(metric, metric), x=AXES[x], statistic=f"{CENTRES[statistic]}{_band(statistic, level)}"
     )
-
-
-HELD = "those that are done with their last value"
 
 
 def legend(statistic: Statistic, level: float, n: int, fewest: int, holds: bool) -> str:

@@ -48,8 +48,8 @@ from sldr_core.disk import write_atomically
 
 PACKAGES = ("sldr", "torch", "numpy", "mujoco", "mjbatch", "gymnasium-robotics")
 
-
 ReadWeights = Callable[[Path], bytes]
+"""Return what goes into a study file of a policy or a locomotion model."""
 
 
 @dataclass(frozen=True)
@@ -97,7 +97,7 @@ def pack_study(
         study_id: the study.
         out: the file to write.
         episodes_of: whose recorded episodes are packed; they are a good part of the file.
-        read_weights: how policies and locomotion models are read; something else may make them smaller on the way.
+        read_weights: reads policies and locomotion models, and may make them smaller.
 
     Raises:
         NotFound: there is no such study.
