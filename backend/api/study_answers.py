@@ -62,7 +62,10 @@ def study_preview(plan: StudyPlan, estimate: Estimate, disk_free: int) -> record
             )
             for planned in plan.places
         ],
-        locomotion=[records.PlannedLocomotion(task=run.task, run_id=run.reused_run_id) for run in plan.locomotion],
+        locomotion=[
+            records.PlannedLocomotion(task=run.task, run_id=run.reused_run_id, zoo_success=run.zoo_success)
+            for run in plan.locomotion
+        ],
         queued=len(plan.new_runs),
         estimate=records.StudyEstimate(**asdict(estimate), disk_free_bytes=disk_free),
     )

@@ -92,6 +92,9 @@ class PlannedLocomotion(Strict):
 
     task: str
     run_id: str | None = Field(description="The existing run that is reused; null for a new one.")
+    zoo_success: float | None = Field(
+        description="Measured success of the zoo's model, if that serves; null for a run that is trained."
+    )
 
 
 class StudyEstimate(Strict):

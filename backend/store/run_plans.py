@@ -40,6 +40,11 @@ class PlannedRun:
     """The model of the zoo that it is made from, if it is."""
 
     @property
+    def zoo_success(self) -> float | None:
+        """Measured success of the zoo's model, 0 to 1; None for a run that is trained or there already."""
+        return None if self.model is None else self.model.measured.success_rate
+
+    @property
     def task(self) -> str:
         """The task."""
         return self.config.task

@@ -31,7 +31,7 @@ def test_a_preview_shows_every_run_and_queues_nothing(unused_service: Service):
         ("her-sldr", 0, "new"),
         ("her-sldr", 1, "new"),
     ]
-    assert preview["locomotion"] == [{"task": "FetchPush", "run_id": None}]
+    assert preview["locomotion"] == [{"task": "FetchPush", "run_id": None, "zoo_success": None}]
     assert preview["queued"] == 5
     assert unused_service.get("/api/runs")["total"] == 0
 

@@ -23,6 +23,7 @@ from backend.store.studies.spec import StudySpec
 from backend.store.zoo_runs import ZooShelf
 from sldr_core.errors import BadFile, InvalidConfig
 from sldr_core.zoo.index import ZooModel
+from worker.cli.commands import launch as launch_command
 from worker.cli.commands import list as list_command
 from worker.locomotion_files import find_locomotion_models
 
@@ -149,6 +150,29 @@ def test_models_are_listed_for_people_and_programs(zoo: ZooModel, capsys: pytest
     assert told.startswith("FetchPush  position")
     assert "of 2 episodes" in told
     assert (entry["name"], entry["sha256"]) == ("FetchPush", zoo.sha256)
+
+
+@pytest.mark.parametrize(("locomotion", "word", "queued"), [("zoo", "zoo", 2), ("train", "new", 3)])
+def test_a_study_says_where_its_model_comes_from_as_a_launch_does(
+    locomotion: str,
+    word: str,
+    queued: int,
+    zoo: ZooModel,
+    settings: Settings,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    for name, value in settings.as_environment().items():
+        monkeypatch.setenv(name, value)
+    asked = ["--task", TASK, "--preset", "smoke", "--seeds", "0-1", "--locomotion", locomotion, "--dry-run"]
+
+    launch_command.main(asked)
+    alone = capsys.readouterr().out
+    launch_command.main([*asked, "--study", "two"])
+    study = capsys.readouterr().out
+
+    assert alone.split()[:3] == study.split()[:3] == [word, TASK, "locomotion"]
+    assert f"{queued} to be queued" in study
 
 
 def test_an_empty_zoo_is_told(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path) -> None:

@@ -30,7 +30,7 @@ def plan_launch(launch: Launch, store: Store, settings: ServiceSettings) -> Laun
                 method=planned.method,
                 seed=planned.seed,
                 reused_run_id=planned.reused_run_id,
-                zoo_success=None if planned.model is None else planned.model.measured.success_rate,
+                zoo_success=planned.zoo_success,
                 config=config_to_dict(planned.config),
             )
             for planned in planned_runs

@@ -58,6 +58,8 @@ class PlannedLocomotion:
     task: str
     run_id: str | None
     """The existing run that is reused; None for a new one."""
+    zoo_success: float | None = None
+    """Measured success of the model of the zoo that serves; None for a run that is trained."""
 
 
 @dataclass(frozen=True, config=RECORD)

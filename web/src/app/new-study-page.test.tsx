@@ -27,6 +27,17 @@ test('the preview shows every run as a matrix, the locomotion runs, time and dis
   expect(within(panel).getByText(/2 GB of disk.*50 GB are free/)).toBeTruthy();
 });
 
+test('a model of the zoo is not said to be trained', async () => {
+  const locomotion = [
+    { task: 'FetchPush', run_id: null, zoo_success: 1 },
+    { task: 'FetchSlide', run_id: 'run-7', zoo_success: null },
+  ];
+  server.on('POST /api/studies/preview', () => ({ body: { ...PREVIEW, locomotion } }));
+  openPage('/studies/new');
+  const sums = await screen.findByText(/Locomotion:/);
+  expect(sums.textContent).toBe('Locomotion: 1 from the zoo, 1 reused.');
+});
+
 test('nobody knows is said where nobody does', async () => {
   const estimate = { ...PREVIEW.estimate, training_s: null, until_done_s: null, unknown_runs: 3 };
   server.on('POST /api/studies/preview', () => ({ body: { ...PREVIEW, estimate } }));

@@ -2818,6 +2818,11 @@ export interface components {
             run_id: string | null;
             /** Task */
             task: string;
+            /**
+             * Zoo Success
+             * @description Measured success of the zoo's model, if that serves; null for a run that is trained.
+             */
+            zoo_success: number | null;
         };
         /**
          * PlannedPlace

@@ -6,8 +6,9 @@ import classes from './preview-sums.module.css';
 
 export function PreviewSums({ preview }: { preview: StudyPreview }) {
   const { new: made, joined, in_study: there } = countStandings(preview.places);
-  const added = preview.locomotion.filter((run) => run.run_id === null).length;
-  const reused = preview.locomotion.length - added;
+  const reused = preview.locomotion.filter((run) => run.run_id !== null).length;
+  const shelved = preview.locomotion.filter((run) => run.zoo_success !== null).length;
+  const added = preview.locomotion.length - reused - shelved;
   return (
     <ul className={classes.sums}>
       <li>
@@ -17,7 +18,10 @@ export function PreviewSums({ preview }: { preview: StudyPreview }) {
       </li>
       {preview.locomotion.length > 0 && (
         <li>
-          Locomotion: {[added > 0 && `${added} added`, reused > 0 && `${reused} reused`].filter(Boolean).join(', ')}
+          Locomotion:{' '}
+          {[shelved > 0 && `${shelved} from the zoo`, reused > 0 && `${reused} reused`, added > 0 && `${added} added`]
+            .filter(Boolean)
+            .join(', ')}
           {made > 0 && added > 0 && ', trained first'}.
         </li>
       )}

@@ -191,7 +191,7 @@ export const PREVIEW: StudyPreview = {
     { task: 'FetchPush', method: 'her-sldr', variant: '', seed: 0, standing: 'new', run_id: null },
     { task: 'FetchPush', method: 'her-sldr', variant: '', seed: 1, standing: 'new', run_id: null },
   ],
-  locomotion: [{ task: 'FetchPush', run_id: null }],
+  locomotion: [{ task: 'FetchPush', run_id: null, zoo_success: null }],
   queued: 4,
   estimate: {
     training_s: 4000,

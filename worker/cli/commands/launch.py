@@ -80,8 +80,7 @@ def main(arguments: Sequence[str]) -> int:
 def _launch(service: Service, order: Order, dry_run: bool) -> list[str]:
     plan = service.plan(order)
     for planned in plan:
-        new = "new" if planned.zoo_success is None else "zoo"
-        standing = new if planned.reused_run_id is None else "reused"
+        standing = _source(planned.reused_run_id, planned.zoo_success)
         print(f"{standing:8} {planned.task:18} {planned.phase:13} {planned.method:10} seed {planned.seed}")
     if dry_run:
         return []
@@ -179,7 +178,7 @@ def _spec_of(template: Template) -> StudySpec:
 def _study_lines(preview: StudyPreview) -> Iterable[str]:
     """Return what a study would do, cell by cell."""
     for run in preview.locomotion:
-        yield f"{'new' if run.run_id is None else 'reused':8} {run.task:18} locomotion"
+        yield f"{_source(run.run_id, run.zoo_success):8} {run.task:18} locomotion"
     cells: dict[tuple[str, str, str], Counter[Standing]] = {}
     for place in preview.places:
         cells.setdefault((place.task, place.method, place.variant), Counter())[place.standing] += 1
@@ -188,6 +187,12 @@ def _study_lines(preview: StudyPreview) -> Iterable[str]:
         yield f"{task:18} {method:10} {variant:10} {told}".rstrip()
     disk = f"{preview.estimate.disk_bytes / 1e9:.1f} GB of disk"
     yield f"{preview.queued} to be queued, {_described(preview.estimate)}, {disk}."
+
+
+def _source(reused_run_id: str | None, zoo_success: float | None) -> str:
+    if reused_run_id is not None:
+        return "reused"
+    return "new" if zoo_success is None else "zoo"
 
 
 def _described(estimate: StudyEstimate) -> str:

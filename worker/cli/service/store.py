@@ -73,7 +73,7 @@ class StoreService:
                 PlannedPlace(**asdict(at.place.cell), seed=at.place.seed, standing=at.standing.value, run_id=at.run_id)
                 for at in plan.places
             ],
-            locomotion=[PlannedLocomotion(run.task, run.reused_run_id) for run in plan.locomotion],
+            locomotion=[PlannedLocomotion(run.task, run.reused_run_id, run.zoo_success) for run in plan.locomotion],
             queued=len(plan.new_runs),
             estimate=StudyEstimate(**asdict(estimate_study(self._db, plan))),
         )
@@ -126,7 +126,7 @@ def _planned(run: launches.PlannedRun) -> PlannedRun:
         seed=run.seed,
         reused_run_id=run.reused_run_id,
         config=config_to_dict(run.config),
-        zoo_success=None if run.model is None else run.model.measured.success_rate,
+        zoo_success=run.zoo_success,
     )
 
 
