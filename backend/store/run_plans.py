@@ -41,7 +41,7 @@ class PlannedRun:
 
     @property
     def zoo_success(self) -> float | None:
-        """Measured success of the zoo's model, 0 to 1; None for a run that is trained or there already."""
+        """Measured success of the zoo's model, 0 to 1; None where the zoo has none that serves."""
         return None if self.model is None else self.model.measured.success_rate
 
     @property

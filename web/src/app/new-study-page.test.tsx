@@ -30,7 +30,7 @@ test('the preview shows every run as a matrix, the locomotion runs, time and dis
 test('a model of the zoo is not said to be trained', async () => {
   const locomotion = [
     { task: 'FetchPush', run_id: null, zoo_success: 1 },
-    { task: 'FetchSlide', run_id: 'run-7', zoo_success: null },
+    { task: 'FetchSlide', run_id: 'run-7', zoo_success: 0.99 },
   ];
   server.on('POST /api/studies/preview', () => ({ body: { ...PREVIEW, locomotion } }));
   openPage('/studies/new');

@@ -7,7 +7,7 @@ import classes from './preview-sums.module.css';
 export function PreviewSums({ preview }: { preview: StudyPreview }) {
   const { new: made, joined, in_study: there } = countStandings(preview.places);
   const reused = preview.locomotion.filter((run) => run.run_id !== null).length;
-  const shelved = preview.locomotion.filter((run) => run.zoo_success !== null).length;
+  const shelved = preview.locomotion.filter((run) => run.run_id === null && run.zoo_success !== null).length;
   const added = preview.locomotion.length - reused - shelved;
   return (
     <ul className={classes.sums}>
