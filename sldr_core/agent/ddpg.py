@@ -20,6 +20,7 @@ from sldr_core.nets.adam import Adam
 from sldr_core.nets.descent import descend, slices_of
 from sldr_core.nets.mlp import Mlp, MlpStack
 from sldr_core.nets.normalizer import Drift, Normalizer
+from sldr_core.nets.precision import learner_precision
 from sldr_core.nets.transitions import Transitions
 from sldr_core.nets.views import View
 
@@ -107,6 +108,8 @@ class DdpgAgent:
             features = self.features(batch.obs, batch.goal)
             next_features = self.features(batch.next_obs, batch.goal)
             metrics = self._update_critics(features, batch.action, rewards, next_features)
+        # Anew, as a context keeps the weights that it has rounded: the actor would learn from the critics as they were.
+        with self._precision():
             return {**metrics, **self._update_actor(features)}
 
     @torch.no_grad()
@@ -198,8 +201,8 @@ class DdpgAgent:
             "actor/saturated_share": (torch.cat(chosen).abs() > SATURATED).float().mean(),
         }
 
-    def _precision(self) -> AbstractContextManager[Any]:
-        return torch.autocast(self._device.type, dtype=torch.bfloat16, enabled=self._autocast)
+    def _precision(self) -> AbstractContextManager[None]:
+        return learner_precision(self._device, self._autocast)
 
 
 def _lowest_targets(config: AgentConfig, streams: int) -> list[float]:

@@ -13,6 +13,7 @@ from sldr_core.nets.adam import Adam
 from sldr_core.nets.descent import descend, slices_of
 from sldr_core.nets.mlp import Mlp
 from sldr_core.nets.normalizer import Normalizer
+from sldr_core.nets.precision import learner_precision
 from sldr_core.nets.transitions import Transitions
 from sldr_core.nets.views import transition_features
 
@@ -56,10 +57,10 @@ class InverseLearner:
         seen = self.normalizer(transition_features(batch.obs, batch.next_obs))
 
         def loss(rows: slice) -> Tensor:
-            with torch.autocast(self._device.type, dtype=torch.bfloat16, enabled=self._autocast):
-                return (self.net(seen[rows]).float() - batch.action[rows]).square().mean()
+            return (self.net(seen[rows]).float() - batch.action[rows]).square().mean()
 
-        mean_loss = descend(loss, slices_of(len(seen), self._device), self.net, self._optimiser)
+        with learner_precision(self._device, self._autocast):
+            mean_loss = descend(loss, slices_of(len(seen), self._device), self.net, self._optimiser)
         return {
             "inverse/loss": mean_loss,
             "inverse/weight_norm": get_total_norm(list(self.net.parameters())).detach(),

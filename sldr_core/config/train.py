@@ -115,7 +115,7 @@ class ComputeConfig:
     device: Literal["auto", "cpu", "cuda"] = "auto"
     """`auto` takes a GPU when there is one."""
     precision: Literal["float32", "bfloat16"] = "float32"
-    """`bfloat16` runs the learner under autocast: faster where the processor has the instructions."""
+    """`bfloat16` runs the learner under autocast: faster where the processor has the instructions, slower elsewhere."""
     threads: Annotated[int, Field(ge=0)] = 0
     """Threads for simulation and learner (0: one per available core)."""
 

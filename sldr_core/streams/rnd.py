@@ -18,6 +18,7 @@ from sldr_core.nets.adam import Adam
 from sldr_core.nets.descent import descend, slices_of
 from sldr_core.nets.mlp import Mlp
 from sldr_core.nets.normalizer import Normalizer
+from sldr_core.nets.precision import learner_precision
 from sldr_core.nets.transitions import Transitions
 from sldr_core.nets.views import View, view_of
 from sldr_core.records import Floats
@@ -102,10 +103,10 @@ class RndStream:
         features = self._next_features(batch)
 
         def loss(rows: slice) -> Tensor:
-            with self._precision():
-                return self.nets.squared_errors(features[rows]).mean()
+            return self.nets.squared_errors(features[rows]).mean()
 
-        mean_loss = descend(loss, slices_of(len(features), self._device), self.nets.predictor, self._optimiser)
+        with self._precision():
+            mean_loss = descend(loss, slices_of(len(features), self._device), self.nets.predictor, self._optimiser)
         return {"rnd/loss": mean_loss}
 
     def state_dict(self) -> dict[str, Any]:
@@ -120,8 +121,8 @@ class RndStream:
     def _next_features(self, batch: Transitions) -> Tensor:
         return self.nets.normalizer(self._view.features(batch.next_obs, batch.goal))
 
-    def _precision(self) -> AbstractContextManager[Any]:
-        return torch.autocast(self._device.type, dtype=torch.bfloat16, enabled=self._autocast)
+    def _precision(self) -> AbstractContextManager[None]:
+        return learner_precision(self._device, self._autocast)
 
 
 def build_rnd(order: StreamOrder) -> list[RndStream]:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager
-from typing import Any
 
 import torch
 from torch import Tensor
@@ -17,6 +16,7 @@ from torch import Tensor
 from sldr_core.config import SldrConfig, SldrReward
 from sldr_core.nets.descent import slices_of
 from sldr_core.nets.locomotion_model import LocomotionModel, LocomotionNets
+from sldr_core.nets.precision import learner_precision
 from sldr_core.nets.transitions import Transitions
 from sldr_core.nets.views import PartView, part_view
 from sldr_core.records import Floats
@@ -104,8 +104,8 @@ class SldrStream(FixedStream):
     def _features(self, batch: Transitions) -> Tensor:
         return self._nets.features(self._view.object_state(batch.obs), self._view.part_goal(batch.goal))
 
-    def _precision(self) -> AbstractContextManager[Any]:
-        return torch.autocast(self._device.type, dtype=torch.bfloat16, enabled=self._autocast)
+    def _precision(self) -> AbstractContextManager[None]:
+        return learner_precision(self._device, self._autocast)
 
 
 def build_sldr(order: StreamOrder) -> list[SldrStream]:
