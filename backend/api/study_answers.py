@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
@@ -10,7 +11,7 @@ from backend.store.studies.estimate import Estimate
 from backend.store.studies.launch import Launched
 from backend.store.studies.matrix import MatrixCell, StudyMatrix, StudyRow, StudyRun
 from backend.store.studies.plan import StudyPlan
-from backend.store.studies.spec import StudySpec, Variant, spec_to_dict
+from backend.store.studies.spec import Addition, StudySpec, Variant, spec_to_dict
 
 
 def store_spec(spec: records.StudySpec) -> StudySpec:
@@ -21,8 +22,18 @@ def store_spec(spec: records.StudySpec) -> StudySpec:
         seeds=tuple(spec.seeds),
         preset=spec.preset,
         overrides=spec.overrides,
-        variants=tuple(Variant(variant.name, variant.overrides) for variant in spec.variants),
+        variants=_store_variants(spec.variants),
         locomotion=spec.locomotion,
+    )
+
+
+def store_addition(addition: records.StudyAddition) -> Addition:
+    """Return what a study shall have besides as the store has it."""
+    return Addition(
+        tasks=tuple(addition.tasks),
+        methods=tuple(addition.methods),
+        seeds=tuple(addition.seeds),
+        variants=_store_variants(addition.variants),
     )
 
 
@@ -99,3 +110,7 @@ def _cell(cell: MatrixCell) -> records.StudyCell:
 
 def _run(run: StudyRun) -> records.StudyRun:
     return records.StudyRun(**asdict(run))
+
+
+def _store_variants(variants: Sequence[records.StudyVariant]) -> tuple[Variant, ...]:
+    return tuple(Variant(variant.name, variant.overrides) for variant in variants)

@@ -11,14 +11,7 @@ from backend.api.schemas import LocomotionChoice, Seed, Strict
 from backend.store.states import RunState
 from backend.store.studies.launch import LONGEST_NOTE
 from backend.store.studies.plan import Standing
-from backend.store.studies.spec import LONGEST_NAME
-
-MOST_NAMES = 100
-"""Tasks or methods that a study may name."""
-MOST_SEEDS = 100
-"""Seeds that a study may have."""
-MOST_VARIANTS = 20
-"""Variants that a study may have."""
+from backend.store.studies.spec import LONGEST_NAME, MOST_PLACES
 
 Word = Annotated[str, Field(min_length=1, max_length=200)]
 Name = Annotated[str, Field(min_length=1, max_length=LONGEST_NAME)]
@@ -35,14 +28,14 @@ class StudyVariant(Strict):
 class StudySpec(Strict):
     """Every combination of tasks, methods, seeds and, if there are any, variants."""
 
-    tasks: list[Word] = Field(min_length=1, max_length=MOST_NAMES)
-    methods: list[Word] = Field(min_length=1, max_length=MOST_NAMES)
-    seeds: list[Seed] = Field(min_length=1, max_length=MOST_SEEDS)
+    tasks: list[Word] = Field(min_length=1, max_length=MOST_PLACES)
+    methods: list[Word] = Field(min_length=1, max_length=MOST_PLACES)
+    seeds: list[Seed] = Field(min_length=1, max_length=MOST_PLACES)
     preset: Word
     overrides: dict[str, Any] = Field(
         default_factory=dict, description="Settings laid over the preset in every run, nested."
     )
-    variants: list[StudyVariant] = Field(default_factory=list, max_length=MOST_VARIANTS)
+    variants: list[StudyVariant] = Field(default_factory=list, max_length=MOST_PLACES)
     locomotion: LocomotionChoice = "zoo"
 
 
@@ -71,9 +64,12 @@ class StudyChange(Strict):
 class StudyAddition(Strict):
     """What a study shall have besides."""
 
-    tasks: list[Word] = Field(default_factory=list, max_length=MOST_NAMES)
-    methods: list[Word] = Field(default_factory=list, max_length=MOST_NAMES)
-    seeds: list[Seed] = Field(default_factory=list, max_length=MOST_SEEDS)
+    tasks: list[Word] = Field(default_factory=list, max_length=MOST_PLACES)
+    methods: list[Word] = Field(default_factory=list, max_length=MOST_PLACES)
+    seeds: list[Seed] = Field(default_factory=list, max_length=MOST_PLACES)
+    variants: list[StudyVariant] = Field(
+        default_factory=list, max_length=MOST_PLACES, description="Only for a study that has variants."
+    )
 
 
 class PlannedPlace(Strict):

@@ -79,6 +79,23 @@ def test_a_study_is_changed_extended_filled_deleted_and_brought_back(service: Se
     assert (study["name"], study["note"], study["spec"]["seeds"]) == ("better", "So it goes.", [0, 1, 2])
 
 
+def test_a_study_may_grow_as_long_as_it_is_not_too_large(service: Service):
+    path = f"/api/studies/{create(service)['study_id']}"
+    for first in (100, 200):
+        added = service.client.post(f"{path}/extend", json={"seeds": list(range(first, first + 90))})
+        assert added.status_code == 200
+    assert len(service.get(path)["spec"]["seeds"]) == 2 + 180
+    assert len(service.get("/api/studies")["studies"][0]["spec"]["seeds"]) == 2 + 180
+
+
+def test_a_variant_is_added(service: Service):
+    changes = {"methods": ["her"], "variants": [{"name": "base", "overrides": {}}]}
+    path = f"/api/studies/{create(service, **changes)['study_id']}"
+    added = {"variants": [{"name": "low", "overrides": {"agent": {"gamma": 0.9}}}]}
+    assert service.client.post(f"{path}/extend", json=added).json()["queued"] == 2
+    assert [cell["variant"] for cell in service.get(path)["cells"]] == ["base", "low"]
+
+
 def test_failed_runs_are_tried_again(service: Service):
     path = f"/api/studies/{create(service)['study_id']}"
     held = service.claim()
@@ -108,7 +125,7 @@ def test_the_templates_can_be_previewed_as_they_are(unused_service: Service):
         ({"seeds": [-1]}, "spec.seeds.0"),
         ({"seeds": [True]}, "spec.seeds.0"),
         ({"seeds": [3, 3]}, "seeds"),
-        ({"seeds": list(range(101))}, "spec.seeds"),
+        ({"seeds": list(range(2001))}, "spec.seeds"),
         ({"overrides": {"loop": {"batch_size": -5}}}, "loop.batch_size"),
         ({"overrides": {"seed": 5}}, "seed"),
         ({"overrides": {"loop": 5}}, "loop"),

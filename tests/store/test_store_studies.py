@@ -145,6 +145,49 @@ def test_adding_a_seed_makes_only_that_seed(db: Database) -> None:
     assert [len(cell.runs) for cell in get_study(db, study).cells] == [3, 3]
 
 
+def test_adding_a_variant_makes_only_its_runs(db: Database) -> None:
+    base, low, high = (
+        Variant("base"),
+        Variant("low", {"agent": {"gamma": 0.9}}),
+        Variant("high", {"agent": {"gamma": 0.99}}),
+    )
+    study = create_study(db, "axis", replace(small_spec(), methods=("her",), variants=(base, low))).study_id
+    before = set(study_run_ids(db, study))
+
+    assert extend_study(db, study, Addition(variants=(low, high))).queued == 2
+
+    added = set(study_run_ids(db, study)) - before
+    assert {get_run(db, run_id).config["agent"]["gamma"] for run_id in added} == {0.99}
+    assert [cell.cell.variant for cell in get_study(db, study).cells] == ["base", "low", "high"]
+
+
+@pytest.mark.parametrize(
+    ("variant", "sentence"),
+    [
+        (Variant("low", {"agent": {"gamma": 0.95}}), "variants: low is listed more than once"),
+        (Variant("again", {"agent": {"gamma": 0.9}}), "'low' and 'again' are the same training for FetchPush with her"),
+        (Variant("nothing", {"loop": {"epochs": -1}}), r"loop.epochs.*for FetchPush, her, nothing"),
+    ],
+)
+def test_a_variant_that_cannot_be_added_changes_nothing(db: Database, variant: Variant, sentence: str) -> None:
+    variants = (Variant("base"), Variant("low", {"agent": {"gamma": 0.9}}))
+    study = create_study(db, "axis", replace(small_spec(), methods=("her",), variants=variants)).study_id
+    before = study_run_ids(db, study)
+
+    with pytest.raises(InvalidConfig, match=sentence):
+        extend_study(db, study, Addition(variants=(variant,)))
+
+    assert study_run_ids(db, study) == before
+    assert get_study(db, study).study.spec.variants == variants
+
+
+def test_a_study_without_variants_says_how_to_come_by_them(db: Database) -> None:
+    study = made(db)
+
+    with pytest.raises(InvalidConfig, match="launch a new study with the variants"):
+        extend_study(db, study, Addition(variants=(Variant("low", {"agent": {"gamma": 0.9}}),)))
+
+
 def test_a_longer_axis_can_be_previewed_for_the_study_it_is_for(db: Database) -> None:
     study = made(db)
 

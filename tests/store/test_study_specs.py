@@ -9,7 +9,7 @@ from backend.store.run_plans import PlannedRun
 from backend.store.speeds import STARTING_S, Speed, Speeds
 from backend.store.studies.estimate import estimate
 from backend.store.studies.spec import (
-    MOST_RUNS,
+    MOST_PLACES,
     PLAIN,
     Cell,
     Place,
@@ -36,7 +36,7 @@ from sldr_core.presets.budget import control_steps, gradient_updates
         ({"tasks": ("FetchPus",)}, "Did you mean 'FetchPush'?"),
         ({"methods": ("herr",)}, "Did you mean 'her'?"),
         ({"preset": "slow"}, "No preset is called 'slow'"),
-        ({"seeds": tuple(range(MOST_RUNS))}, f"these are {2 * MOST_RUNS} runs and a study may have {MOST_RUNS}"),
+        ({"seeds": tuple(range(MOST_PLACES))}, f"these are {2 * MOST_PLACES} runs and a study may have {MOST_PLACES}"),
         ({"overrides": {"seed": 1}}, "seed: is named by the launch itself"),
         ({"variants": (Variant("a"), Variant("a "))}, "variants: a is listed more than once"),
         ({"variants": (Variant(" "),)}, "variants: a name is empty"),

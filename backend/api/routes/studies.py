@@ -14,6 +14,7 @@ from backend.api.errors import problem_responses
 from backend.api.queue_schemas import ActionResult, ActionResults
 from backend.api.study_answers import (
     api_spec,
+    store_addition,
     store_spec,
     study_detail,
     study_outcome,
@@ -35,7 +36,6 @@ from backend.api.study_schemas import (
 )
 from backend.store.studies import launch, matrix, retry
 from backend.store.studies.estimate import estimate_study
-from backend.store.studies.spec import Addition
 from backend.store.studies.templates import TEMPLATES
 from backend.store.zoo_runs import ZooShelf
 
@@ -106,9 +106,8 @@ def change_study(study_id: str, change: StudyChange, store: Store) -> None:
 @router.post("/{study_id}/extend", responses=problem_responses(400, 403, 404, 409, 422))
 @needs("operator")
 def extend_study(study_id: str, addition: StudyAddition, store: Store, settings: ServiceSettings) -> StudyOutcome:
-    """Add tasks, methods or seeds to a study, and queue every run that it then misses."""
-    wanted = Addition(tuple(addition.tasks), tuple(addition.methods), tuple(addition.seeds))
-    return study_outcome(launch.extend_study(store, study_id, wanted, ZooShelf(settings)))
+    """Add tasks, methods, seeds or variants to a study, and queue every run that it then misses."""
+    return study_outcome(launch.extend_study(store, study_id, store_addition(addition), ZooShelf(settings)))
 
 
 @router.post("/{study_id}/fill", responses=problem_responses(403, 404, 409, 422))

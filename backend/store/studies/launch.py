@@ -78,12 +78,12 @@ def create_study(db: Database, name: str, spec: StudySpec, note: str = "", shelf
 
 
 def extend_study(db: Database, study_id: str, addition: Addition, shelf: ZooShelf | None = None) -> Launched:
-    """Add tasks, methods or seeds to a study, and queue every run that it then misses.
+    """Add tasks, methods, seeds or variants to a study, and queue every run that it then misses.
 
     Raises:
         NotFound: there is no such study.
         UnknownName: a task or method does not exist.
-        InvalidConfig: nothing would be added, or the study would be too large.
+        InvalidConfig: nothing would be added, the study would be too large, or a variant cannot be beside its others.
         Refused: the study is deleted.
     """
     with db.write() as conn:
@@ -91,7 +91,9 @@ def extend_study(db: Database, study_id: str, addition: Addition, shelf: ZooShel
         spec = spec_from_dict(hold_study(conn, study_id).spec)
         longer = extend_spec(spec, addition)
         if longer == spec:
-            raise InvalidConfig({"seeds": "the study has all of that already; name a task, method or seed to add."})
+            raise InvalidConfig(
+                {"seeds": "the study has all of that already; name a task, method, seed or variant to add."}
+            )
         plan = plan_study(conn, longer, study_id, shelf)
         conn.execute(update(studies).where(studies.c.id == study_id).values(spec=spec_to_dict(longer)))
         return _launch(conn, study_id, plan, shelf)

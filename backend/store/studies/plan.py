@@ -10,7 +10,7 @@ from sqlalchemy import Connection, select
 
 from backend.store.locomotion import LocomotionWish
 from backend.store.run_plans import PlannedRun, plan_runs
-from backend.store.studies.spec import Cell, Place, StudySpec, check_spec, make_configs
+from backend.store.studies.spec import Cell, Place, StudySpec, check_spec, check_variants_differ, make_configs
 from backend.store.tables import runs, study_runs
 from backend.store.zoo_runs import ZooShelf
 from sldr_core.config import config_hash
@@ -69,6 +69,7 @@ def plan_study(
         InvalidConfig: the study, or a setting of one of its runs, cannot work.
     """
     check_spec(spec)
+    check_variants_differ(spec)
     members: Mapping[Place, str] = {} if study_id is None else find_members(conn, study_id)
     configs = make_configs(spec, [place for place in spec.places if place not in members])
     wish = LocomotionWish(spec.locomotion, shelf)

@@ -15,8 +15,8 @@ from sldr_core.config import TASKS, TrainConfig, config_hash, find_method
 from sldr_core.errors import InvalidConfig, UnknownName
 from sldr_core.presets import find_preset, lay_over, make_config
 
-MOST_RUNS = 2000
-"""Places that a study may have, locomotion runs not counted."""
+MOST_PLACES = 2000
+"""Places that a study may have, locomotion runs not counted; so no axis is longer than this."""
 LONGEST_NAME = 80
 """Letters of the name of a study or variant at most."""
 PLAIN = ""
@@ -88,15 +88,28 @@ class Addition:
     tasks: tuple[str, ...] = ()
     methods: tuple[str, ...] = ()
     seeds: tuple[int, ...] = ()
+    variants: tuple[Variant, ...] = ()
 
 
 def extend_spec(spec: StudySpec, addition: Addition) -> StudySpec:
-    """Return a spec with longer axes; what it has already is not added twice."""
+    """Return a spec with longer axes; what it has already is not added twice.
+
+    Raises:
+        InvalidConfig: the study varies no settings, so that its runs are of no variant.
+    """
+    if addition.variants and not spec.variants:
+        raise InvalidConfig(
+            {
+                "variants": "this study varies no settings, so none can be added beside them; launch a new study with "
+                "the variants: it takes in the runs of this one that are the same."
+            }
+        )
     return replace(
         spec,
         tasks=_united(spec.tasks, addition.tasks),
         methods=_united(spec.methods, addition.methods),
         seeds=_united(spec.seeds, addition.seeds),
+        variants=spec.variants + tuple(variant for variant in addition.variants if variant not in spec.variants),
     )
 
 
@@ -116,9 +129,12 @@ def check_spec(spec: StudySpec) -> None:
     for name, values in (("tasks", spec.tasks), ("methods", spec.methods), ("seeds", spec.seeds)):
         _check_axis(name, values)
     _check_names("variants", [variant.name for variant in spec.variants])
-    if spec.size > MOST_RUNS:
+    if spec.size > MOST_PLACES:
         raise InvalidConfig(
-            {"seeds": f"these are {spec.size} runs and a study may have {MOST_RUNS}; take fewer, or make two studies."}
+            {
+                "seeds": f"these are {spec.size} runs and a study may have {MOST_PLACES}; "
+                "take fewer, or make two studies."
+            }
         )
     for overrides in (spec.overrides, *(variant.overrides for variant in spec.variants)):
         check_overrides(overrides)
@@ -159,6 +175,16 @@ def make_configs(spec: StudySpec, places: Iterable[Place]) -> dict[Place, TrainC
     configs = {place: _make_config(spec.preset, place, settings[place.cell.variant]) for place in places}
     _check_differ(configs)
     return configs
+
+
+def check_variants_differ(spec: StudySpec) -> None:
+    """Refuse a variant that is the same training as another, whether or not its runs are there already.
+
+    Raises:
+        InvalidConfig: two are the same, or a setting cannot work.
+    """
+    if spec.variants:
+        make_configs(spec, [Place(cell, spec.seeds[0]) for cell in spec.cells])
 
 
 def spec_to_dict(spec: StudySpec) -> dict[str, Any]:

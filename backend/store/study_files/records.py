@@ -14,6 +14,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, AwareDatetime, BaseModel, ConfigDict, Field
 
+from backend.store.studies.spec import MOST_PLACES
+
 FORMAT: Literal[1] = 1
 """Raised when an older program could not read a newer file."""
 STUDY_MEMBER = "study.json"
@@ -150,12 +152,12 @@ class VariantRecord(Strict):
 class SpecRecord(Strict):
     """The axes of the study."""
 
-    tasks: Annotated[list[Word], Field(min_length=1, max_length=100)]
-    methods: Annotated[list[Word], Field(min_length=1, max_length=100)]
-    seeds: Annotated[list[Seed], Field(min_length=1, max_length=100)]
+    tasks: Annotated[list[Word], Field(min_length=1, max_length=MOST_PLACES)]
+    methods: Annotated[list[Word], Field(min_length=1, max_length=MOST_PLACES)]
+    seeds: Annotated[list[Seed], Field(min_length=1, max_length=MOST_PLACES)]
     preset: Word
     overrides: dict[str, Any]
-    variants: Annotated[list[VariantRecord], Field(max_length=20)] = []
+    variants: Annotated[list[VariantRecord], Field(max_length=MOST_PLACES)] = []
     locomotion: Literal["zoo", "train"] = "train"
 
 

@@ -2,7 +2,7 @@ import { screen, waitFor, within } from '@testing-library/react';
 import { beforeEach, expect, test } from 'vitest';
 import { DONE, type FakeServer, problem } from '@/testing/fake-server';
 import { openPage, startServer } from '@/testing/open-page';
-import { STUDY, TEMPLATE } from '@/testing/samples';
+import { PREVIEW, STUDY, TEMPLATE } from '@/testing/samples';
 
 const PATH = '/api/studies/study-1';
 const OUTCOME = { study_id: 'study-1', queued: 1, joined: 0 };
@@ -119,3 +119,42 @@ test('a study that does not exist gets one clear sentence', async () => {
 function imported(study_id: string) {
   return { study_id, runs: 40, already_there: false };
 }
+
+test('seeds are added, and what that would queue is said before', async () => {
+  server
+    .on('POST /api/studies/preview', () => ({ body: PREVIEW }))
+    .on(`POST ${PATH}/extend`, () => ({ body: OUTCOME }));
+  const { user } = openPage('/studies/study-1');
+  await user.click(await screen.findByRole('button', { name: 'Add seeds …' }));
+  const dialog = await screen.findByRole('dialog', { name: 'Add to the study' });
+  expect(await within(dialog).findByText(/will be queued/)).toBeTruthy();
+  expect(within(dialog).queryByText('Variants')).toBeNull();
+  await user.click(within(dialog).getByRole('button', { name: 'Add and queue' }));
+  await waitFor(() => expect(server.bodiesOf('POST', `${PATH}/extend`)).toHaveLength(1));
+  const [addition] = server.bodiesOf('POST', `${PATH}/extend`);
+  expect(addition).toEqual({ seeds: [2], tasks: [], methods: [], variants: [] });
+});
+
+test('a study that varies a setting gets another value of it', async () => {
+  const variants = [{ name: 'gamma=0.95', overrides: { agent: { gamma: 0.95 } } }];
+  server
+    .on(`GET ${PATH}`, () => ({ body: { ...STUDY, spec: { ...STUDY.spec, variants } } }))
+    .on('POST /api/studies/preview', () => ({ body: PREVIEW }))
+    .on(`POST ${PATH}/extend`, () => ({ body: OUTCOME }));
+  const { user } = openPage('/studies/study-1');
+  await user.click(await screen.findByRole('button', { name: 'Add seeds …' }));
+  const dialog = await screen.findByRole('dialog', { name: 'Add to the study' });
+  await user.clear(within(dialog).getByRole('textbox', { name: 'Seeds' }));
+  await user.type(await within(dialog).findByRole('textbox', { name: 'Values of agent.gamma' }), '0.98');
+  const added = { name: 'gamma=0.98', overrides: { agent: { gamma: 0.98 } } };
+  const spec = { ...STUDY.spec, variants: [...variants, added] };
+  await waitFor(() =>
+    expect(server.bodiesOf('POST', '/api/studies/preview').at(-1)).toEqual({ spec, study_id: 'study-1' }),
+  );
+  await user.click(within(dialog).getByRole('button', { name: 'Add and queue' }));
+  await waitFor(() =>
+    expect(server.bodiesOf('POST', `${PATH}/extend`)).toEqual([
+      { seeds: [], tasks: [], methods: [], variants: [added] },
+    ]),
+  );
+});

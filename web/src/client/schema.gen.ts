@@ -1103,7 +1103,7 @@ export interface paths {
         put?: never;
         /**
          * Extend Study
-         * @description Add tasks, methods or seeds to a study, and queue every run that it then misses.
+         * @description Add tasks, methods, seeds or variants to a study, and queue every run that it then misses.
          */
         post: operations["extend_study"];
         delete?: never;
@@ -3679,6 +3679,11 @@ export interface components {
             seeds?: number[];
             /** Tasks */
             tasks?: string[];
+            /**
+             * Variants
+             * @description Only for a study that has variants.
+             */
+            variants?: components["schemas"]["StudyVariant"][];
         };
         /**
          * StudyCell

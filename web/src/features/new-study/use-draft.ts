@@ -4,10 +4,10 @@ import { useQuery } from '@tanstack/react-query';
 import { useMemo, useState } from 'react';
 import type { Choices, StudySpec } from '@/client/schema.gen';
 import { parseSeeds } from '@/lib/seeds';
+import { readRows, rowsOf, type SettingRow } from '@/lib/setting-rows';
 import { readSettingGroups } from '@/lib/settings';
 import { describeAxes } from '@/lib/studies';
 import { previewQuery } from '@/lib/study-preview';
-import { readRows, rowsOf, type SettingRow } from './setting-rows';
 
 /** Rest after the last change before the preview is asked for [ms]. */
 const REST_MS = 250;

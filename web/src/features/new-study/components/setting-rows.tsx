@@ -1,9 +1,7 @@
 /** Settings laid over the preset: one value for every run, or several to compare. */
-import { Button, CloseButton, Select, TextInput } from '@mantine/core';
-import { EquationLine } from '@/components/equation-line';
-import { InlineCode } from '@/components/inline-code';
-import { SETTING_EQUATIONS } from '@/lib/setting-help';
-import type { SettingRow } from '../setting-rows';
+import { Button, CloseButton } from '@mantine/core';
+import { SettingField } from '@/components/setting-field';
+import type { SettingRow } from '@/lib/setting-rows';
 import type { Draft, StudyDraft } from '../use-draft';
 import classes from './builder.module.css';
 
@@ -24,36 +22,19 @@ export function SettingRows({ form, onChange }: Props) {
         {draft.rows.length === 0 ? 'As the preset has them. ' : ''}
         One value is set in every run; several, as in <code>0.95, 0.98</code>, are compared side by side.
       </p>
-      {draft.rows.map((row, place) => {
-        const setting = settings.find(({ path }) => path === row.path);
-        return (
-          // biome-ignore lint/suspicious/noArrayIndexKey: rows have no other name, and two may be equal
-          <div key={place} className={classes.row}>
-            <Select
-              size="xs"
-              aria-label={`Setting ${place + 1}`}
-              searchable
-              data={groups.map((group) => ({
-                group: group.label,
-                items: group.settings.map(({ path }) => ({ value: path, label: path })),
-              }))}
-              value={row.path}
-              onChange={(path) => path && replace(place, { path, text: '' })}
-            />
-            <TextInput
-              size="xs"
-              aria-label={`Values of ${row.path}`}
-              placeholder={setting?.kind === 'integers' ? '64, 64 | 128, 128' : 'a value, or several'}
-              inputWrapperOrder={['input', 'description', 'error']}
-              description={setting && <Help {...setting} />}
-              value={row.text}
-              error={problems.rows[place]}
-              onChange={(event) => replace(place, { ...row, text: event.currentTarget.value })}
-            />
-            <CloseButton size="sm" aria-label={`Remove ${row.path}`} onClick={() => replace(place, undefined)} />
-          </div>
-        );
-      })}
+      {draft.rows.map((row, place) => (
+        // biome-ignore lint/suspicious/noArrayIndexKey: rows have no other name, and two may be equal
+        <div key={place} className={classes.row}>
+          <SettingField
+            label={`Setting ${place + 1}`}
+            groups={groups}
+            row={row}
+            problem={problems.rows[place]}
+            onChange={(changed) => replace(place, changed)}
+          />
+          <CloseButton size="sm" aria-label={`Remove ${row.path}`} onClick={() => replace(place, undefined)} />
+        </div>
+      ))}
       {draft.variants && draft.variants.length > 0 && (
         <p>
           Variants {draft.variants.map((variant) => `“${variant.name}”`).join(', ')} are kept as they were.{' '}
@@ -75,14 +56,4 @@ export function SettingRows({ form, onChange }: Props) {
 
 function firstUnused(settings: readonly { path: string }[], rows: readonly SettingRow[]): string {
   return settings.find(({ path }) => !rows.some((row) => row.path === path))?.path ?? '';
-}
-
-function Help({ path, help }: { path: string; help: string }) {
-  const equation = SETTING_EQUATIONS[path];
-  return (
-    <>
-      <InlineCode text={help} />
-      {equation && <EquationLine name={equation} />}
-    </>
-  );
 }

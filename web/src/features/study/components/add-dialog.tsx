@@ -1,12 +1,15 @@
-/** More seeds, tasks or methods for a study; says what that would queue before it is done. */
-import { Button, Group, Modal, MultiSelect, Stack, TextInput } from '@mantine/core';
+/** More seeds, tasks, methods or variants for a study; says what that would queue before it is done. */
+import { Button, Group, Input, Modal, MultiSelect, Stack, TextInput } from '@mantine/core';
 import { useQuery } from '@tanstack/react-query';
-import { useState } from 'react';
+import { useMemo, useState } from 'react';
 import type { StudyDetail } from '@/client/schema.gen';
 import { PreviewSums } from '@/components/preview-sums';
+import { SettingField } from '@/components/setting-field';
 import { sentence } from '@/lib/api';
 import { choicesQuery } from '@/lib/queries';
 import { parseSeeds } from '@/lib/seeds';
+import { readVariants } from '@/lib/setting-rows';
+import { readSettingGroups } from '@/lib/settings';
 import { previewQuery } from '@/lib/study-preview';
 import type { StudyWish } from '@/lib/use-study-action';
 
@@ -31,16 +34,21 @@ function Form({ study, onClose, onSend }: Omit<Props, 'isOpen'>) {
   const [seedText, setSeedText] = useState(String(Math.max(...spec.seeds) + 1));
   const [tasks, setTasks] = useState<string[]>([]);
   const [methods, setMethods] = useState<string[]>([]);
+  const groups = useMemo(() => readSettingGroups(choices?.config_schema ?? {}), [choices]);
+  const [varied, setVaried] = useState({ path: variedPath(spec), text: '' });
   const read = readSeeds(seedText);
   const seeds = read.seeds.filter((seed) => !spec.seeds.includes(seed));
-  const isEmpty = seeds.length + tasks.length + methods.length === 0;
+  const { variants, problem } = readVariants(groups, varied);
+  const isEmpty = seeds.length + tasks.length + methods.length + variants.length === 0;
+  const isUnread = read.problem !== undefined || problem !== undefined;
   const longer = {
     ...spec,
     seeds: [...spec.seeds, ...seeds],
     tasks: [...spec.tasks, ...tasks],
     methods: [...spec.methods, ...methods],
+    variants: [...(spec.variants ?? []), ...variants],
   };
-  const preview = useQuery(previewQuery(isEmpty || read.problem ? null : longer, study.id));
+  const preview = useQuery(previewQuery(isEmpty || isUnread ? null : longer, study.id));
   const others = (names: readonly { name: string }[] = [], known: readonly string[] = []): string[] =>
     names.map(({ name }) => name).filter((name) => !known.includes(name));
   return (
@@ -60,7 +68,23 @@ function Form({ study, onClose, onSend }: Omit<Props, 'isOpen'>) {
         value={methods}
         onChange={setMethods}
       />
-      {isEmpty && !read.problem && <p className="faint">The study has all of that already.</p>}
+      {spec.variants && spec.variants.length > 0 && (
+        <Input.Wrapper
+          label="Variants"
+          description={`There are ${spec.variants.map(({ name }) => name).join(', ')}. Each value of a setting is one more.`}
+        >
+          <Stack gap={6} mt={6}>
+            <SettingField
+              label="Setting to vary"
+              groups={groups}
+              row={varied}
+              problem={problem}
+              onChange={(row) => setVaried(row)}
+            />
+          </Stack>
+        </Input.Wrapper>
+      )}
+      {isEmpty && !isUnread && <p className="faint">The study has all of that already.</p>}
       {preview.data && !isEmpty && <PreviewSums preview={preview.data} />}
       {preview.error && <p className="problem">{sentence(preview.error)}</p>}
       <Group justify="flex-end" gap="xs">
@@ -68,9 +92,9 @@ function Form({ study, onClose, onSend }: Omit<Props, 'isOpen'>) {
           Leave it
         </Button>
         <Button
-          disabled={isEmpty || read.problem !== undefined || preview.isError}
+          disabled={isEmpty || isUnread || preview.isError}
           onClick={() => {
-            onSend({ action: 'extend', studyId: study.id, addition: { seeds, tasks, methods } });
+            onSend({ action: 'extend', studyId: study.id, addition: { seeds, tasks, methods, variants } });
             onClose();
           }}
         >
@@ -79,6 +103,13 @@ function Form({ study, onClose, onSend }: Omit<Props, 'isOpen'>) {
       </Group>
     </Stack>
   );
+}
+
+/** The setting that the study varies, or the last of those that do. */
+function variedPath(spec: StudyDetail['spec']): string {
+  const [name, settings] = Object.entries(spec.variants?.at(-1)?.overrides ?? {})[0] ?? [];
+  const key = Object.keys(Object(settings))[0];
+  return name && key ? `${name}.${key}` : '';
 }
 
 function readSeeds(text: string): { seeds: number[]; problem?: string } {

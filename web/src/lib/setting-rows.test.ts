@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import { readSettingGroups } from '@/lib/settings';
 import { CONFIG_SCHEMA } from '@/testing/samples';
-import { readRows, rowsOf } from './setting-rows';
+import { readRows, readVariants, rowsOf } from './setting-rows';
 
 const GROUPS = readSettingGroups(CONFIG_SCHEMA);
 const SPEC = { tasks: ['FetchPush'], methods: ['her'], seeds: [0], preset: 'quick', locomotion: 'zoo' };
@@ -59,4 +59,12 @@ test('a spec becomes the rows that say the same', () => {
 test('variants that no row can say are kept as they are', () => {
   const variants = [{ name: 'both', overrides: { agent: { gamma: 0.9 }, loop: { epochs: 2 } } }];
   expect(rowsOf({ ...SPEC, variants })).toEqual({ rows: [], variants });
+});
+
+test('a row is read as variants, however many values it has', () => {
+  const read = (text: string) => readVariants(GROUPS, { path: 'agent.gamma', text });
+  expect(read('0.98')).toEqual({ variants: [{ name: 'gamma=0.98', overrides: { agent: { gamma: 0.98 } } }] });
+  expect(read('0.9, 0.98').variants.map(({ name }) => name)).toEqual(['gamma=0.9', 'gamma=0.98']);
+  expect(read(' ')).toEqual({ variants: [] });
+  expect(read('0.9, 0.9')).toEqual({ variants: [], problem: 'A value is written twice.' });
 });

@@ -49,6 +49,21 @@ export function readRows(groups: readonly SettingGroup[], rows: readonly Setting
   return { overrides, variants, problems };
 }
 
+/** Read a row as variants, also if it has one value alone; an empty one has none. */
+export function readVariants(
+  groups: readonly SettingGroup[],
+  { path, text }: SettingRow,
+): { variants: ReadRows['variants']; problem?: string } {
+  const setting = groups.flatMap((group) => group.settings).find((known) => known.path === path);
+  if (setting === undefined || text.trim() === '') return { variants: [] };
+  try {
+    return { variants: valuesOf(setting, text).map((value) => variantOf(setting, value)) };
+  } catch (error) {
+    if (!(error instanceof BadSetting)) throw error;
+    return { variants: [], problem: error.message };
+  }
+}
+
 /** The rows that say the same as a spec, and its variants if no row can. */
 export function rowsOf(spec: StudySpec): { rows: SettingRow[]; variants: StudySpec['variants'] } {
   const rows = leaves(spec.overrides ?? {}).map(([path, value]) => ({ path, text: settingText(value) }));
