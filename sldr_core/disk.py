@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import secrets
 import shutil
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
@@ -16,6 +17,9 @@ NO_ROOM = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG})
 
 MARGIN = 32 * 2**20
 """Disk space left free beside the files of a run [bytes]."""
+
+TOKEN_BYTES = 6
+"""What sets a temporary name apart [bytes]."""
 
 
 def check_room(directory: Path, sizes: Mapping[str, int]) -> None:
@@ -66,7 +70,7 @@ def write_atomically(path: Path, write: Callable[[Path], None]) -> Path:
     Raises:
         DiskTooFull: there is no room for it; the old file is left as it was.
     """
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
+    temporary = temporary_beside(path)
     try:
         with explain_full_disk(path):
             write(temporary)
@@ -76,6 +80,14 @@ def write_atomically(path: Path, write: Callable[[Path], None]) -> Path:
         temporary.unlink(missing_ok=True)
     sync(path.parent)
     return path
+
+
+def temporary_beside(path: Path) -> Path:
+    """Return a name for what is to become `path`, which no other thread, process or machine chooses.
+
+    It ends in this process's id, by which what a killed one has left is told from what a living one writes.
+    """
+    return path.with_name(f".{path.name}.{secrets.token_hex(TOKEN_BYTES)}.{os.getpid()}.tmp")
 
 
 def sync(path: Path) -> None:

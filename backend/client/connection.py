@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-import os
+import secrets
 import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
@@ -86,7 +86,7 @@ class Connection:
             BadAnswer: it came damaged.
             ClientError: it was not answered.
         """
-        temporary = target.with_name(f".{target.name}.{os.getpid()}.tmp")
+        temporary = target.with_name(f".{target.name}.{secrets.token_hex(6)}.tmp")
         digest = hashlib.sha256()
         try:
             with self._speaking(), self._http.stream("GET", path) as answer, temporary.open("wb") as file:

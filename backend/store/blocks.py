@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from backend.store.storage import SharedPlace
-from sldr_core.disk import explain_full_disk
+from sldr_core.disk import explain_full_disk, temporary_beside
 from sldr_core.errors import BadFile
 
 BLOCK = 2**20
@@ -99,7 +99,7 @@ def get_blocks(place: SharedPlace, found: BlockList, target: Path) -> None:
         FileGone: a block is gone.
         FilesUnavailable: the place cannot be read just now.
     """
-    temporary = target.with_name(f".{target.name}.{os.getpid()}.tmp")
+    temporary = temporary_beside(target)
     try:
         with explain_full_disk(target), temporary.open("wb") as file:
             # All the space at once: the file will be written through memory, where a full disk would kill.

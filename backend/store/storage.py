@@ -16,7 +16,7 @@ from pathlib import Path, PurePosixPath
 from backend.store.errors import BadAddress, FileGone, FilesUnavailable
 from backend.store.files import FileRow
 from backend.store.settings import FILES_VARIABLE, Settings
-from sldr_core.disk import explain_full_disk
+from sldr_core.disk import explain_full_disk, temporary_beside
 from sldr_core.errors import BadFile
 
 CHUNK = 2**20
@@ -146,7 +146,7 @@ class SharedPlace:
             BadFile: its content is not what was registered.
         """
         target.parent.mkdir(parents=True, exist_ok=True)
-        temporary = target.with_name(f".{target.name}.{os.getpid()}.tmp")
+        temporary = temporary_beside(target)
         digest = hashlib.sha256()
         try:
             with explain_full_disk(target), temporary.open("wb") as file:

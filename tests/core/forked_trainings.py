@@ -76,8 +76,8 @@ class WatchedLines:
 
 
 def name_of(temporary: Path) -> str:
-    """Return which file a temporary one is to become: `.checkpoint.pt.<pid>.tmp` is `checkpoint.pt`."""
-    return temporary.name.strip(".").rsplit(".", 2)[0]
+    """Return which file a temporary one is to become: `.checkpoint.pt.<token>.<pid>.tmp` is `checkpoint.pt`."""
+    return temporary.name.strip(".").rsplit(".", 3)[0]
 
 
 def watch(reaper: Reaper) -> None:
