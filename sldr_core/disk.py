@@ -1,8 +1,9 @@
-"""Files on the disk: written whole or not at all, room for them asked for first, a full disk explained."""
+"""Files on the disk: written whole or not at all, room for them asked for first, a full disk explained, turns taken."""
 
 from __future__ import annotations
 
 import errno
+import fcntl
 import os
 import secrets
 import shutil
@@ -98,6 +99,14 @@ def sync(path: Path) -> None:
             os.fsync(descriptor)
         finally:
             os.close(descriptor)
+
+
+@contextmanager
+def hold_lock(path: Path) -> Iterator[None]:
+    """Wait until no other thread or process of this machine holds the lock of this file, and hold it."""
+    with path.open("w") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        yield
 
 
 def _held(path: Path) -> int:

@@ -9,9 +9,8 @@ from pydantic import Field
 
 from backend.api.schemas import LocomotionChoice, Seed, Strict
 from backend.store.states import RunState
-from backend.store.studies.launch import LONGEST_NOTE
 from backend.store.studies.plan import Standing
-from backend.store.studies.spec import LONGEST_NAME, MOST_PLACES
+from backend.store.studies.spec import LONGEST_NAME, LONGEST_NOTE, MOST_PLACES
 
 Word = Annotated[str, Field(min_length=1, max_length=200)]
 Name = Annotated[str, Field(min_length=1, max_length=LONGEST_NAME)]

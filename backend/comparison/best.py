@@ -40,6 +40,9 @@ REACHED = (0.5, 0.8, 0.9)
 EFFORTS: tuple[Literal["env_steps", "wall_seconds"], ...] = ("env_steps", "wall_seconds")
 """What is counted until then."""
 
+MOST_PAIRED = 40
+"""Beyond so many groups none are set against each other: pairs grow with their square, and each is drawn anew often."""
+
 PROFILE_THRESHOLDS = np.linspace(0.0, 1.0, 101)
 """Test success that a performance profile is read at."""
 
@@ -151,6 +154,8 @@ def _overall(scored: _Scored, group: str, tasks: Sequence[str], level: float) ->
 
 
 def _improvements(scored: _Scored, groups: Sequence[str], level: float) -> list[Improvement]:
+    if len(groups) > MOST_PAIRED:
+        return []
     found: list[Improvement] = []
     for first, second in combinations(groups, 2):
         tasks = scored.tasks_of(first, second)

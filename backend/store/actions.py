@@ -167,8 +167,10 @@ def _restore(conn: Connection, held: Held, at: datetime) -> str:
     run = held.run
     if run.deleted_at is None:
         raise Refused(f"Run {run.id} is not deleted.")
-    change_state(conn, run.id, Event.RESTORED, at=at, changes={"deleted_at": None})
-    return f"Run {run.id} is back."
+    needed = [row.id for row in held.needed if row.deleted_at is not None]
+    for run_id in (run.id, *needed):
+        change_state(conn, run_id, Event.RESTORED, at=at, changes={"deleted_at": None})
+    return f"Run {run.id} is back{f', and with it {_named(needed)} that it needs' if needed else ''}."
 
 
 def _waiting_for(conn: Connection, run_id: str) -> list[str]:

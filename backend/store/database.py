@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-import fcntl
 from collections.abc import Generator
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager, nullcontext, suppress
 from datetime import UTC, datetime
 from itertools import count
 from pathlib import Path
 
-from sqlalchemy import URL, Connection, Engine, event, func, inspect, select, text
+from sqlalchemy import URL, Connection, Engine, Update, event, func, inspect, select, text
 from sqlalchemy.exc import DataError, DBAPIError, OperationalError
 from sqlalchemy.exc import TimeoutError as NoConnectionFree
 from sqlalchemy.pool import ConnectionPoolEntry
 
-from backend.store.engines import for_reading, for_writing, open_engine, parse_address
+from backend.store.engines import for_noting, for_reading, for_writing, open_engine, parse_address
 from backend.store.errors import StoreTooNew, StoreUnavailable, Unstorable
 from backend.store.settings import Settings
 from backend.store.tables import SCHEMA_REVISION
+from sldr_core.disk import hold_lock
 
 MIGRATION_TURN = 0x534C4452
 """Whose turn it is to migrate a PostgreSQL store: the key of an advisory lock."""
@@ -31,6 +31,7 @@ class Database:
     def __init__(self, engine: Engine) -> None:
         self._reader = for_reading(engine)
         self._writer = for_writing(engine)
+        self._noter = for_noting(engine)
         self._is_closed = False
         # A counter's step is one piece even between threads, which `+= 1` is not.
         self._writes = count()
@@ -66,6 +67,11 @@ class Database:
             if is_news:
                 self.writes = next(self._writes)
 
+    def note(self, statement: Update) -> None:
+        """Write what may be left out, as when somebody was last here: if the store is busy just now, it is left out."""
+        with suppress(StoreUnavailable), _transaction(self._noter) as conn:
+            conn.execute(statement)
+
     def close(self) -> None:
         """Close every connection; one that another thread still uses is closed when that thread is done with it."""
         self._is_closed = True
@@ -99,7 +105,7 @@ def open_database(settings: Settings) -> Database:
 
 def _bring_up_to_date(database: Database, engine: Engine, url: URL) -> None:
     is_sqlite = database.engine_name == "sqlite"
-    with _file_lock(Path(f"{url.database}.lock")) if is_sqlite else nullcontext():
+    with hold_lock(Path(f"{url.database}.lock")) if is_sqlite else nullcontext():
         if is_sqlite:
             _use_write_ahead_log(engine)
         _migrate(database)
@@ -151,13 +157,6 @@ def _use_write_ahead_log(engine: Engine) -> None:
         cursor.close()
     finally:
         connection.close()
-
-
-@contextmanager
-def _file_lock(path: Path) -> Generator[None]:
-    with path.open("w") as file:
-        fcntl.flock(file, fcntl.LOCK_EX)
-        yield
 
 
 def _migrate(database: Database) -> None:

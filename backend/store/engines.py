@@ -38,6 +38,10 @@ POOL_OVERFLOW = 35
 """Further ones in moments of need: the API answers up to 40 requests at once."""
 WRITE_OPTION = "sldr_write"
 """Execution option that marks a transaction as one that writes."""
+PATIENCE_OPTION = "sldr_patience_s"
+"""Execution option that names how long a transaction on SQLite waits for another writer [s]."""
+SHORT_PATIENCE_S = 0.1
+"""How long to wait for the sake of what may be left out [s]."""
 EXTRA = "postgresql"
 """The extra of this package that brings the driver of PostgreSQL."""
 
@@ -79,6 +83,11 @@ def for_reading(engine: Engine) -> Engine:
 def for_writing(engine: Engine) -> Engine:
     """Return the engine whose transactions write."""
     return engine.execution_options(**{WRITE_OPTION: True})
+
+
+def for_noting(engine: Engine) -> Engine:
+    """Return the engine whose transactions write, but hardly wait for others."""
+    return engine.execution_options(**{WRITE_OPTION: True, PATIENCE_OPTION: SHORT_PATIENCE_S})
 
 
 def _open_sqlite(url: URL) -> Engine:
@@ -123,8 +132,20 @@ def _set_up_sqlite(connection: Any, _record: object) -> None:
 
 
 def _begin_sqlite(conn: Connection) -> None:
-    writes = conn.get_execution_options().get(WRITE_OPTION, False)
-    conn.exec_driver_sql("BEGIN IMMEDIATE" if writes else "BEGIN")
+    options = conn.get_execution_options()
+    begin = "BEGIN IMMEDIATE" if options.get(WRITE_OPTION, False) else "BEGIN"
+    if PATIENCE_OPTION not in options:
+        conn.exec_driver_sql(begin)
+        return
+    _wait_at_most(conn, options[PATIENCE_OPTION])
+    try:
+        conn.exec_driver_sql(begin)
+    finally:
+        _wait_at_most(conn, BUSY_TIMEOUT_S)
+
+
+def _wait_at_most(conn: Connection, patience_s: float) -> None:
+    conn.exec_driver_sql(f"PRAGMA busy_timeout={1000 * patience_s:.0f}")
 
 
 def _set_up_postgresql(connection: Any, _record: object) -> None:

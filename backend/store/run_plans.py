@@ -112,7 +112,7 @@ def find_serving(conn: Connection, digests: Sequence[str]) -> dict[str, str]:
         .where(
             runs.c.config_hash.in_(digests),
             runs.c.state.not_in(lost),
-            runs.c.cancel_requested.is_(False),
+            or_(runs.c.cancel_requested.is_(False), runs.c.state == RunState.SUCCEEDED),
             runs.c.deleted_at.is_(None),
             # What came in a study file is there to be looked at; nobody here can vouch for it.
             or_(runs.c.origin.is_(None), runs.c.origin == ZOO_TAG),

@@ -205,10 +205,14 @@ def append_event(
 
 
 def _arrival(to: RunState, at: datetime, reason: str | None) -> dict[str, Any]:
-    """Return what every arrival in a state sets: a run that is not running has no worker, no lease, no pause ahead."""
+    """Return what every arrival in a state sets.
+
+    A run that is not running has no worker, no lease and no pause ahead, and one that has ended will not be cancelled:
+    the wish came too late for a run that has succeeded.
+    """
     values: dict[str, Any] = {"state": to, "reason": reason}
     if to is not RunState.RUNNING:
         values |= {"worker_id": None, "lease_until": None, "pause_requested": False}
     if to in ENDED:
-        values |= {"ended_at": at}
+        values |= {"ended_at": at, "cancel_requested": False}
     return values

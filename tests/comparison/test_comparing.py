@@ -201,6 +201,13 @@ def test_every_chart_of_best_models_has_its_table(sample_db: Database):
     assert one.probability + other.probability == pytest.approx(1)
 
 
+def test_so_many_groups_are_not_set_against_each_other(sample_db: Database, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr("backend.comparison.best.MOST_PAIRED", 1)
+    best = compare_best(sample_db, ComparisonMemory(), RunChoice(), CurveView())
+    assert (best.improvements, len(best.scores)) == ([], 4)
+    assert {table.name: len(table.rows) for table in best.tables}["improvements"] == 0
+
+
 def test_efficiency_is_where_each_seed_first_reaches_a_success(sample_db: Database):
     best = compare_best(sample_db, ComparisonMemory(), RunChoice(), CurveView())
     for effort in best.efficiency:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -65,6 +66,19 @@ def test_without_a_shared_place_a_file_stays_where_it_is(tmp_path: Path) -> None
 
     assert row.path == f"runs/{RUN}/policy-best.pt"
     assert FileStorage(settings).bring(row) == settings.home / row.path
+
+
+def test_one_file_can_be_fetched_by_many_at_once(tmp_path: Path) -> None:
+    url = f"file://{tmp_path}/shared"  # fsspec's place in memory has one cursor for all who read
+    content = bytes(range(256)) * 20_000
+    row = kept(machine(tmp_path, "a", url), content)
+    storage = FileStorage(machine(tmp_path, "b", url))
+
+    for _ in range(5):
+        with ThreadPoolExecutor(4) as pool:
+            paths = list(pool.map(storage.bring, [row] * 4))
+        assert {path.read_bytes() for path in paths} == {content}
+        paths[0].unlink()
 
 
 def test_another_machine_gets_the_very_bytes(tmp_path: Path, url: str) -> None:

@@ -100,6 +100,17 @@ def test_a_new_password_by_link_ends_every_session(db: Database, ada: Account) -
     assert login_sessions.find_session(db, secret) is None
 
 
+def test_who_signed_in_may_read_while_somebody_else_writes_for_long(db: Database, ada: Account) -> None:
+    session, secret = login_sessions.start_session(db, ada.id, "10.0.0.7", "Firefox")
+    _, token = api_tokens.create_token(db, ada.id, "laptop", "viewer", None)
+    with db.write() as conn:
+        conn.execute(update(session_table).values(seen_at=session.seen_at - timedelta(hours=5)))
+
+    with db.write():
+        assert login_sessions.find_session(db, secret) is not None
+        assert api_tokens.find_token(db, token) is not None
+
+
 @pytest.mark.parametrize("column", ["expires_at", "seen_at", "ended_at"])
 def test_a_session_ends(db: Database, ada: Account, column: str) -> None:
     session, secret = login_sessions.start_session(db, ada.id, "10.0.0.7", "Firefox")

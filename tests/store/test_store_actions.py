@@ -155,6 +155,18 @@ def test_a_run_paused_while_its_needs_were_met_is_queued_when_resumed(db: Databa
     assert done(db, Action.RESUME, manipulation).state is RunState.QUEUED
 
 
+def test_a_run_comes_back_with_the_locomotion_run_that_it_needs(db: Database) -> None:
+    locomotion, manipulation = launch(db, GATED)
+    done(db, Action.DELETE, manipulation)
+    done(db, Action.DELETE, locomotion)
+
+    result = do(db, Action.RESTORE, manipulation)
+
+    assert result.message == f"Run {manipulation} is back, and with it run {locomotion} that it needs."
+    assert get_run(db, locomotion).deleted_at is None
+    assert claim_next(db).run_id == locomotion
+
+
 def test_a_failed_run_is_retried_with_all_its_attempts_and_a_new_fence(db: Database) -> None:
     failed = failed_run(db)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
+from sqlalchemy import update
 from store_cases import claim_next, order
 
 from backend.store.actions import request_cancel
@@ -14,6 +15,7 @@ from backend.store.outcomes import Failed, Succeeded
 from backend.store.queue import claim, finish
 from backend.store.runs import RunFilter, get_run, list_runs
 from backend.store.states import RunState
+from backend.store.tables import runs
 from sldr_core.errors import InvalidConfig, UnknownName
 
 GATED = {"sldr": {"gate": 0.95}}
@@ -86,6 +88,25 @@ def test_a_cancelled_locomotion_run_is_not_shared(db: Database) -> None:
     request_cancel(db, locomotion)
 
     assert launch(db, sldr())[0] != locomotion
+
+
+def test_a_locomotion_run_that_succeeded_before_its_cancelling_is_shared(db: Database) -> None:
+    locomotion, _ = launch(db, sldr())
+    held = claim_next(db)
+    request_cancel(db, locomotion)
+    finish(db, held, Succeeded(1.0))
+
+    assert not get_run(db, locomotion).cancel_requested
+    assert launch(db, sldr())[0] == locomotion
+
+
+def test_what_an_earlier_version_left_marked_is_shared_too(db: Database) -> None:
+    locomotion, _ = launch(db, sldr())
+    finish(db, claim_next(db), Succeeded(1.0))
+    with db.write() as conn:
+        conn.execute(update(runs).where(runs.c.id == locomotion).values(cancel_requested=True))
+
+    assert launch(db, sldr())[0] == locomotion
 
 
 def test_a_run_starts_when_the_gate_is_met(db: Database) -> None:

@@ -29,7 +29,7 @@ from study_file_cases import (
 from backend.store.database import Database, open_database
 from backend.store.settings import Settings
 from backend.store.studies.matrix import list_studies
-from backend.store.study_files.placing import import_study
+from backend.store.study_files.placing import IMPORT_LOCK, import_study
 from backend.store.study_files.records import STUDY_MEMBER
 from sldr_core.errors import BadFile
 
@@ -46,7 +46,7 @@ def refused(db: Database, home: Settings, source: Path, match: str) -> None:
     with pytest.raises(BadFile, match=match):
         import_study(db, home, source, "The file")
 
-    assert everything_below(home.home) - before <= {"runs"}
+    assert everything_below(home.home) - before <= {"runs", IMPORT_LOCK}
     assert list_studies(db, 10) == []
 
 
@@ -198,7 +198,14 @@ def test_a_file_damaged_anywhere_is_refused_or_whole(
                 import_study(db, home, io.BytesIO(content), "The file")
             except BadFile:
                 continue
-        outside = everything_below(tmp_path) - {"sldr.db", "sldr.db.lock", "sldr.db-wal", "sldr.db-shm", "runs"}
+        outside = everything_below(tmp_path) - {
+            "sldr.db",
+            "sldr.db.lock",
+            "sldr.db-wal",
+            "sldr.db-shm",
+            "runs",
+            IMPORT_LOCK,
+        }
         assert all(path.startswith("runs/") for path in outside)
         db.close()
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import platform
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -22,18 +23,23 @@ from backend.store.launches import LaunchOrder, plan_launch
 from backend.store.metric_summaries import list_metric_names
 from backend.store.metrics import read_metrics
 from backend.store.queue import claim
+from backend.store.retention.plan import plan_retention
+from backend.store.retention.removal import apply_retention, finish_removals
+from backend.store.retention.rule import Removable, Rule
 from backend.store.runs import get_run, list_events
 from backend.store.settings import Settings
 from backend.store.states import RunState
-from backend.store.storage import FileStorage
+from backend.store.storage import FileStorage, checksum
 from backend.store.studies.launch import create_study, delete_study, extend_study, fill_study
 from backend.store.studies.matrix import StudyMatrix, get_study, list_studies
-from backend.store.studies.spec import Addition
+from backend.store.studies.spec import LONGEST_NOTE, Addition
 from backend.store.study_files.chosen_files import EpisodeChoice
 from backend.store.study_files.packing import pack_study
 from backend.store.study_files.placing import import_study
-from backend.store.tables import attempts
+from backend.store.tables import attempts, studies
 from backend.store.workers import Machine, register_worker
+
+ALL_EPISODES = (EpisodeFilter(), "epoch", True, 10, 0)
 
 pytestmark = pytest.mark.parametrize("engine", ENGINES, scope="module")
 
@@ -90,6 +96,49 @@ def test_the_same_file_is_the_same_study(db: Database, settings: Settings, expor
     assert (again.study_id, again.already_there) == (first.study_id, True)
     assert everything_below(settings.runs_directory) == before
     assert [study.name for study in list_studies(db, 10)] == ["Two methods"]
+
+
+def test_two_imports_of_the_same_file_at_once_are_one(db: Database, settings: Settings, exported: Path) -> None:
+    with ThreadPoolExecutor(4) as pool:
+        imports = list(pool.map(lambda _: import_study(db, settings, exported, "It"), range(4)))
+
+    assert sorted(imported.already_there for imported in imports) == [False, True, True, True]
+    for run in (run for cell in get_study(db, imports[0].study_id).cells for run in cell.runs):
+        for file in list_files(db, run.run_id):
+            assert checksum(FileStorage(settings).bring(file)) == file.sha256
+
+
+def test_what_was_removed_comes_back_with_the_same_file(db: Database, settings: Settings, exported: Path) -> None:
+    study_id = import_study(db, settings, exported, "It").study_id
+    run_id = get_study(db, study_id).cells[0].runs[0].run_id
+    before = everything_below(settings.runs_directory), list_episodes(db, run_id, *ALL_EPISODES)
+    removed = apply_retention(db, settings, plan_retention(db, settings, Rule(frozenset({Removable.EPISODES}), 0)))
+    policy = settings.run_directory(run_id) / "policy-best.pt"
+    policy.unlink()
+    assert removed.files == 4
+
+    again = import_study(db, settings, exported, "It")
+
+    assert again.already_there
+    assert everything_below(settings.runs_directory) == before[0]
+    assert list_episodes(db, run_id, *ALL_EPISODES) == before[1]
+    assert finish_removals(db, settings).files == 0
+
+
+def test_a_long_note_is_shortened_by_what_the_import_says(
+    db: Database, settings: Settings, exported: Path, tmp_path: Path
+) -> None:
+    long = changed(exported, tmp_path / "long.zip", lambda listed: listed["study"].update(note="x" * LONGEST_NOTE))
+
+    study_id = import_study(db, settings, long, "It").study_id
+
+    note = get_study(db, study_id).study.note
+    assert len(note) == LONGEST_NOTE
+    assert "\n\nImported from a study file made " in note
+    pack_study(db, settings, study_id, tmp_path / "again.zip")
+    with db.write() as conn:  # as an earlier version left it
+        conn.execute(update(studies).where(studies.c.id == study_id).values(note=note + note))
+    pack_study(db, settings, study_id, tmp_path / "older.zip")
 
 
 def test_a_name_that_is_taken_gets_a_number(db: Database, settings: Settings, exported: Path, tmp_path: Path) -> None:

@@ -77,8 +77,7 @@ def find_token(db: Database, token: str) -> tuple[ApiToken, Account | None] | No
         return None
     row, owner = found
     if row.used_at is None or at - row.used_at >= TOUCH_INTERVAL:
-        with db.write() as conn:
-            conn.execute(update(api_tokens).where(api_tokens.c.id == row.id).values(used_at=at))
+        db.note(update(api_tokens).where(api_tokens.c.id == row.id).values(used_at=at))
     return _token(row), owner
 
 

@@ -87,8 +87,7 @@ def find_session(db: Database, token: str) -> tuple[LoginSession, Account | None
         return None
     row, owner = found
     if at - row.seen_at >= TOUCH_INTERVAL:
-        with db.write(is_news=False) as conn:
-            conn.execute(update(login_sessions).where(login_sessions.c.id == row.id).values(seen_at=at))
+        db.note(update(login_sessions).where(login_sessions.c.id == row.id).values(seen_at=at))
     return _session(row), owner
 
 

@@ -12,6 +12,7 @@ from backend.store.errors import NotFound, Refused
 from backend.store.run_plans import make_runs
 from backend.store.studies.plan import PlannedPlace, StudyPlan, plan_study
 from backend.store.studies.spec import (
+    LONGEST_NOTE,
     Addition,
     StudySpec,
     check_name,
@@ -26,8 +27,6 @@ from sldr_core.errors import InvalidConfig
 
 STUDY_ID_LENGTH = 12
 """Hex digits of a study's id."""
-LONGEST_NOTE = 10_000
-"""Letters of a note at most."""
 
 
 @dataclass(frozen=True)

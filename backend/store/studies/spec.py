@@ -19,6 +19,8 @@ MOST_PLACES = 2000
 """Places that a study may have, locomotion runs not counted; so no axis is longer than this."""
 LONGEST_NAME = 80
 """Letters of the name of a study or variant at most."""
+LONGEST_NOTE = 10_000
+"""Letters of a study's note at most."""
 PLAIN = ""
 """The variant of a study that varies no settings."""
 

@@ -23,6 +23,7 @@ from backend.store.settings import Settings
 from backend.store.states import RunState
 from backend.store.storage import FileStorage
 from backend.store.studies.launch import find_study
+from backend.store.studies.spec import LONGEST_NOTE
 from backend.store.study_files.chosen_files import EPISODES, EpisodeChoice, choose_files, keeps_episodes, kind_of
 from backend.store.study_files.machines import count_machines, find_machines
 from backend.store.study_files.records import (
@@ -124,7 +125,7 @@ def pack_study(
                 made_at=datetime.now(UTC),
                 versions={package: version(package) for package in PACKAGES},
                 machine=members.machine,
-                study=StudyRecord(name=members.study.name, note=members.study.note, spec=_spec(members.study.spec)),
+                study=_pack_study(members.study),
                 runs=records,
             )
             archive.writestr(STUDY_MEMBER, content.model_dump_json(indent=1))
@@ -156,6 +157,11 @@ def _find_members(db: Database, study_id: str) -> Members:
 def _succeeded(conn: Connection, ids: Collection[str]) -> Sequence[AnyRow]:
     done = (runs.c.state == RunState.SUCCEEDED, runs.c.deleted_at.is_(None))
     return conn.execute(select(runs).where(runs.c.id.in_(list(ids)), *done).order_by(runs.c.number)).all()
+
+
+def _pack_study(study: AnyRow) -> StudyRecord:
+    # An import of an earlier version may have left a longer note than anybody may write.
+    return StudyRecord(name=study.name, note=study.note[:LONGEST_NOTE], spec=_spec(study.spec))
 
 
 def _spec(values: Mapping[str, Any]) -> SpecRecord:

@@ -14,7 +14,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, AwareDatetime, BaseModel, ConfigDict, Field
 
-from backend.store.studies.spec import MOST_PLACES
+from backend.store.studies.spec import LONGEST_NOTE, MOST_PLACES
 
 FORMAT: Literal[1] = 1
 """Raised when an older program could not read a newer file."""
@@ -165,7 +165,7 @@ class StudyRecord(Strict):
     """What the study asked for."""
 
     name: Word
-    note: Annotated[str, Field(max_length=10_000, pattern=r"^[^\x00]*$")]
+    note: Annotated[str, Field(max_length=LONGEST_NOTE, pattern=r"^[^\x00]*$")]
     spec: SpecRecord
 
 

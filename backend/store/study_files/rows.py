@@ -7,16 +7,17 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import Any
 
-from sqlalchemy import Connection, insert, select, update
+from sqlalchemy import Connection, delete, insert, select, update
 
 from backend.store.metrics import MetricPoint, store_points
 from backend.store.order import last_position
 from backend.store.states import Event, RunState, append_event
-from backend.store.studies.spec import LONGEST_NAME, StudySpec, spec_to_dict
+from backend.store.studies.spec import LONGEST_NAME, LONGEST_NOTE, StudySpec, spec_to_dict
 from backend.store.study_files.records import Curves, RunRecord, StudyFile
 from backend.store.tables import (
     attempts,
     episodes,
+    file_removals,
     run_events,
     run_files,
     run_needs,
@@ -63,9 +64,28 @@ def taken_ids(conn: Connection, rows: StudyRows) -> list[str]:
 
 
 def revive(conn: Connection, rows: StudyRows) -> None:
-    """Bring back what was deleted of a study that is imported again."""
+    """Bring back what was deleted of a study that is imported again, and let none of its files be removed."""
+    conn.execute(delete(file_removals).where(file_removals.c.run_id.in_(list(rows.ids.values()))))
     conn.execute(update(studies).where(studies.c.id == rows.study_id).values(deleted_at=None))
     conn.execute(update(runs).where(runs.c.id.in_(list(rows.ids.values()))).values(deleted_at=None))
+
+
+def known_files(conn: Connection, rows: StudyRows) -> set[tuple[str, str]]:
+    """Return keys and names of the files that are registered here."""
+    keys = {run_id: key for key, run_id in rows.ids.items()}
+    query = select(run_files.c.run_id, run_files.c.name).where(run_files.c.run_id.in_(list(keys)))
+    return {(keys[row.run_id], row.name) for row in conn.execute(query)}
+
+
+def insert_files(conn: Connection, rows: StudyRows, placed: Mapping[tuple[str, str], str], at: datetime) -> None:
+    """Register files of runs that are there, and their recorded episodes with them.
+
+    Args:
+        placed: where they lie, by key and name.
+        at: now.
+    """
+    for run in rows.content.runs:
+        _insert_files(conn, rows, run, placed, at)
 
 
 def insert_study(
@@ -117,17 +137,27 @@ def _insert_run(
     conn.execute(insert(run_tags).values(run_id=run_id, tag=IMPORTED_TAG))
     if run.progress is not None:
         conn.execute(insert(run_progress).values(run_id=run_id, **run.progress.model_dump()))
-    if run.files:
-        conn.execute(insert(run_files), [_file_row(run_id, placed[run.key, file.name], file, at) for file in run.files])
-    if run.episodes:
-        common = {"run_id": run_id, "attempt": ATTEMPT}
-        conn.execute(insert(episodes), [{**common, **episode.model_dump()} for episode in run.episodes])
+    _insert_files(conn, rows, run, placed, at)
     if run.events:
         # The states in between are of no use here, and nobody can check them.
         common = {"run_id": run_id, "state": RunState.SUCCEEDED}
         conn.execute(insert(run_events), [{**common, **event.model_dump()} for event in run.events])
     detail = f"It came in a study file, sha256 {rows.digest[:12]}, made {rows.content.made_at:%Y-%m-%d}."
     append_event(conn, run_id, Event.IMPORTED, RunState.SUCCEEDED, at=at, attempt=ATTEMPT, detail=detail)
+
+
+def _insert_files(
+    conn: Connection, rows: StudyRows, run: RunRecord, placed: Mapping[tuple[str, str], str], at: datetime
+) -> None:
+    run_id = rows.ids[run.key]
+    files = {file.name: file for file in run.files if (run.key, file.name) in placed}
+    recorded = [episode for episode in run.episodes if episode.file in files]
+    if files:
+        lines = [_file_row(run_id, placed[run.key, name], file, at) for name, file in files.items()]
+        conn.execute(insert(run_files), lines)
+    if recorded:
+        common = {"run_id": run_id, "attempt": ATTEMPT}
+        conn.execute(insert(episodes), [{**common, **episode.model_dump()} for episode in recorded])
 
 
 def _run_row(rows: StudyRows, run: RunRecord) -> dict[str, Any]:
@@ -180,7 +210,8 @@ def _points(curves: Curves) -> list[MetricPoint]:
 def _note(content: StudyFile) -> str:
     versions = ", ".join(f"{name} {number}" for name, number in content.versions.items())
     made = f"Imported from a study file made {content.made_at:%Y-%m-%d} on {content.machine}, with {versions}."
-    return "\n\n".join(part for part in (content.study.note.strip(), made) if part)
+    theirs = content.study.note.strip()[: LONGEST_NOTE - len(made) - 2]
+    return "\n\n".join(part for part in (theirs, made) if part)
 
 
 def _free_name(conn: Connection, name: str) -> str:

@@ -13,11 +13,15 @@ interface Props {
 
 /** Even odds: neither is better. */
 const EVEN = 0.5;
+/** Beyond so many methods the server pairs none. */
+const MOST_PAIRED = 40;
 /** The strongest shade that text stays readable on [%]. */
 const STRONGEST = 56;
 
 export function ImprovementMatrix({ improvements, groups, scheme }: Props) {
   const shown = groups.filter(({ key }) => improvements.some(({ first, second }) => first === key || second === key));
+  if (shown.length === 0 && groups.length > MOST_PAIRED)
+    return <p className="faint">More than {MOST_PAIRED} methods are not set against each other; show fewer of them.</p>;
   return (
     // biome-ignore lint/a11y/noNoninteractiveTabindex: a scrolling region must be reachable by keyboard
     <section className={classes.frame} tabIndex={0} aria-label="Probability of improvement, matrix">
