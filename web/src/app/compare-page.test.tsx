@@ -69,6 +69,22 @@ test('nothing to compare says what to do', async () => {
   expect(await screen.findByText('No run to compare')).toBeTruthy();
 });
 
+test('from what differs between locomotion runs the way leads to their curves', async () => {
+  const runs = [0, 1].map((seed) => ({
+    run_id: `run-${seed}`,
+    task: 'FetchPush',
+    phase: 'locomotion',
+    method: 'her',
+    seed,
+    preset: 'quick',
+  }));
+  server.on('GET /api/compare/configs', () => ({ body: { runs, settings: [], shared: 42, methods: [] } }));
+  openPage('/compare/configs?runs=run-0,run-1');
+  await screen.findByText('The runs have the same config.');
+  const link = screen.getByRole('link', { name: 'Compare their curves' });
+  expect(link.getAttribute('href')).toBe('/compare?runs=run-0%2Crun-1&phase=locomotion');
+});
+
 test('the switches between methods and the settings that differ are listed', async () => {
   const runs = ['her', 'her-sldr'].map((method, seed) => ({
     run_id: `run-${seed}`,

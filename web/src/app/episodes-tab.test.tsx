@@ -1,5 +1,5 @@
 import { screen, waitFor, within } from '@testing-library/react';
-import { beforeEach, expect, test } from 'vitest';
+import { beforeEach, expect, test, vi } from 'vitest';
 import { NO_METRICS } from '@/lib/metrics';
 import { EPISODES, TIMELINES } from '@/testing/episode-samples';
 import { type FakeServer, problem } from '@/testing/fake-server';
@@ -60,6 +60,17 @@ test('the chart of shares is read with the arrow keys, and narrows the list to a
   expect(chart.getAttribute('aria-valuetext')).toBe('epoch 1: too slow 100\u202f%');
   await user.keyboard('{Enter}');
   await waitFor(() => expect(asked().at(-1)).toContain('epoch=1'));
+});
+
+test('another order leaves the page where it stands, another tab begins at its top', async () => {
+  const { user, router } = openPage('/runs/run-1?tab=episodes');
+  const head = await screen.findByRole('button', { name: 'Worst q' });
+  const scrolling = vi.spyOn(window, 'scrollTo');
+  await user.click(head);
+  await waitFor(() => expect(router.state.resolvedLocation?.search).toMatchObject({ sort: 'worst_q' }));
+  expect(scrolling).not.toHaveBeenCalled();
+  await user.click(screen.getByRole('tab', { name: 'Config' }));
+  await waitFor(() => expect(scrolling).toHaveBeenCalled());
 });
 
 test('a file that cannot be read is told in its own words', async () => {

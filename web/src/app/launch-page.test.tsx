@@ -1,8 +1,8 @@
 import { screen, waitFor, within } from '@testing-library/react';
-import { beforeEach, expect, test } from 'vitest';
+import { beforeEach, expect, test, vi } from 'vitest';
 import { type FakeServer, problem } from '@/testing/fake-server';
 import { openPage, startServer } from '@/testing/open-page';
-import { DEFAULTS, DETAIL, RUN } from '@/testing/samples';
+import { CHOICES, DEFAULTS, DETAIL, RUN } from '@/testing/samples';
 
 const PLANNED = { task: 'FetchPush', method: 'her-sldr', seed: 0, config: DEFAULTS };
 
@@ -103,6 +103,64 @@ test('seeds that cannot be read get a sentence', async () => {
   const seeds = await screen.findByRole('textbox', { name: 'Seeds' });
   await user.clear(seeds);
   expect(await screen.findByText('Enter at least one seed, such as 0.')).toBeTruthy();
+});
+
+test('seeds are typed in the middle of others', async () => {
+  const { user, router } = openPage('/launch?seeds=3-9');
+  const seeds = await screen.findByRole<HTMLInputElement>('textbox', { name: 'Seeds' });
+  await user.type(seeds, '1, ', { initialSelectionStart: 0, initialSelectionEnd: 0 });
+  expect(seeds.value).toBe('1, 3-9');
+  await waitFor(() => expect(router.state.location.search).toMatchObject({ seeds: '1, 3-9' }));
+  await user.click(screen.getByRole('checkbox', { name: '0-4' }));
+  expect(seeds.value).toBe('0-4');
+});
+
+test('a choice leaves the page where it stands', async () => {
+  const { user, router } = openPage('/launch');
+  const radio = await screen.findByRole('radio', { name: 'her' });
+  const scrolling = vi.spyOn(window, 'scrollTo');
+  await user.click(radio);
+  await waitFor(() => expect(router.state.location.search).toMatchObject({ method: 'her' }));
+  await waitFor(() => expect(router.state.resolvedLocation?.search).toMatchObject({ method: 'her' }));
+  expect(scrolling).not.toHaveBeenCalled();
+});
+
+const AGAIN = '/launch?task=FetchPush&phase=manipulation&method=her-sldr&preset=quick&seeds=3&from=run-1';
+const lastPlanned = (): unknown => server.bodiesOf('POST', '/api/launches/plan').at(-1);
+
+test('launching again keeps the changed settings and the locomotion runs, until another task is chosen', async () => {
+  server
+    .on('GET /api/choices', () => ({
+      body: { ...CHOICES, tasks: [...CHOICES.tasks, { ...CHOICES.tasks[0], name: 'FetchSlide' }] },
+    }))
+    .on('GET /api/runs/run-1', () => ({ body: { ...DETAIL, needs: ['run-0'] } }))
+    .on('GET /api/runs/run-0', () => ({ body: { ...DETAIL, id: 'run-0', phase: 'locomotion' } }));
+  const { user } = openPage(AGAIN);
+  await screen.findByRole('button', { name: 'Launch 2 runs' });
+  expect(lastPlanned()).toMatchObject({ seeds: [3], overrides: { agent: { gamma: 0.99 } }, locomotion: 'run-0' });
+  await user.click(screen.getByRole('button', { name: /Advanced settings 1 changed/ }));
+  await user.click(screen.getByRole('button', { name: /^Agent/ }));
+  expect(await screen.findByRole<HTMLInputElement>('textbox', { name: 'Gamma' })).toHaveProperty('value', '0.99');
+  await user.click(screen.getByRole('radio', { name: 'FetchSlide' }));
+  await waitFor(() => expect(lastPlanned()).toMatchObject({ task: 'FetchSlide', locomotion: 'zoo' }));
+});
+
+test('launching again takes the models of the zoo if the run did', async () => {
+  server
+    .on('GET /api/runs/run-1', () => ({ body: { ...DETAIL, needs: ['run-0'] } }))
+    .on('GET /api/runs/run-0', () => ({ body: { ...DETAIL, id: 'run-0', phase: 'locomotion', tags: ['zoo'] } }));
+  openPage(AGAIN);
+  await screen.findByRole('button', { name: 'Launch 2 runs' });
+  expect(lastPlanned()).toMatchObject({ locomotion: 'zoo' });
+});
+
+test('a run that cannot be read is not needed to launch', async () => {
+  server.on('GET /api/runs/run-1', () => problem(404, null, 'There is no run run-1.'));
+  const { user } = openPage(AGAIN);
+  expect(await screen.findByText('There is no run run-1.')).toBeTruthy();
+  await user.click(screen.getByRole('link', { name: 'Begin without it' }));
+  await screen.findByRole('button', { name: 'Launch 2 runs' });
+  expect(lastPlanned()).toMatchObject({ seeds: [3], overrides: {} });
 });
 
 test('a locomotion run learns with methods of that phase only', async () => {

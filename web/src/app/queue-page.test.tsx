@@ -62,6 +62,16 @@ test('what runs or is blocked has no place to change', async () => {
   expect(screen.queryByRole('button', { name: /seed [14] (up|down)$/ })).toBeNull();
 });
 
+test('the last row shown does not move down where more rows follow', async () => {
+  const entries = [entry(1, 'queued', 1, 'Waits.'), entry(2, 'queued', 2, 'Waits.')];
+  server.on('GET /api/queue', () => ({ body: { entries, total: 3 } }));
+  openPage('/queue');
+  const isStill = (name: RegExp) => screen.getByRole('button', { name }).getAttribute('aria-disabled');
+  await screen.findAllByText('Waits.');
+  expect(isStill(/seed 1 down$/)).toBe('true');
+  expect(isStill(/seed 2 up$/)).toBe('false');
+});
+
 test('a typed priority is sent on Enter', async () => {
   const { user } = openPage('/queue');
   const field = await screen.findByRole('textbox', { name: /^Priority of .* seed 2$/ });

@@ -36,6 +36,42 @@ test('the overview says what differs', async () => {
   expect(panel.getByText('Gamma').nextElementSibling?.textContent).toBe('0.99 was 0.98');
 });
 
+test('launching again names the run', async () => {
+  openRun({}, '?tab=config');
+  const link = await screen.findByRole('link', { name: 'Launch again' });
+  expect(link.getAttribute('href')).toBe(
+    '/launch?task=FetchPush&phase=manipulation&method=her-sldr&preset=quick&seeds=0&from=run-1',
+  );
+});
+
+/** Take the clipboard away; return what is copied without it, which the browser may refuse too. */
+function withoutClipboard(isAllowed: boolean): string[] {
+  const copied: string[] = [];
+  Object.defineProperty(navigator, 'clipboard', { configurable: true, value: undefined });
+  document.execCommand = () => {
+    if (isAllowed) copied.push((document.activeElement as HTMLTextAreaElement).value);
+    return isAllowed;
+  };
+  return copied;
+}
+
+test('over plain http a text is copied all the same', async () => {
+  const { user } = openRun({}, '?tab=config');
+  const copied = withoutClipboard(true);
+  await user.click(await screen.findByRole('button', { name: 'Copy as JSON' }));
+  expect(await screen.findByRole('button', { name: 'Copied' })).toBe(document.activeElement);
+  expect(copied).toEqual([JSON.stringify(DETAIL.config, null, 2)]);
+  expect(document.querySelector('body > textarea')).toBeNull();
+});
+
+test('a text that cannot be copied is to be selected by hand', async () => {
+  const { user } = openRun({}, '?tab=config');
+  withoutClipboard(false);
+  await user.click(await screen.findByRole('button', { name: 'Copy as JSON' }));
+  expect(await screen.findByText(/Select the text and copy it by hand/)).toBeTruthy();
+  expect(screen.queryByRole('button', { name: 'Copied' })).toBeNull();
+});
+
 test('cancelling what runs asks first, then tells the server', async () => {
   const { user } = openRun({}, '?tab=config');
   await user.click(await screen.findByRole('button', { name: 'Actions' }));
@@ -81,13 +117,32 @@ test('a deleted run can be restored on its own page', async () => {
 test('a run below its gate says why and can be released', async () => {
   const reason = 'Its locomotion run run-0 reached 80.0% test success, below the gate of 95.0%.';
   server.on('GET /api/runs/run-0', () => ({ body: { ...DETAIL, id: 'run-0', state: 'succeeded' } }));
-  const { user } = openRun({ state: 'blocked', is_below_gate: true, reason, locomotion_run_id: 'run-0' });
+  const { user } = openRun({ state: 'blocked', is_below_gate: true, reason, needs: ['run-0'] });
   const panel = (await screen.findByText('The object has not learnt well enough')).closest('section');
   if (panel === null) throw new Error('The title stands in no panel.');
   expect(within(panel).getByText(/That is why the run waits/)).toBeTruthy();
-  expect(screen.getByText(reason)).toBeTruthy();
+  expect(screen.getByText(/reached 80.0% test success, below the gate of 95.0%/)).toBeTruthy();
   await user.click(within(panel).getByRole('button', { name: 'Release anyway' }));
   await waitFor(() => expect(sent()).toEqual([{ action: 'release', run_ids: ['run-1'] }]));
+});
+
+test('a run that needs two locomotion runs shows both, and leads to the one that holds it back', async () => {
+  const needed = { ...DETAIL, phase: 'locomotion' as const };
+  server
+    .on('GET /api/runs/run-8', () => ({ body: { ...needed, id: 'run-8', task: 'HandEggTranslate' } }))
+    .on('GET /api/runs/run-9', () => ({ body: { ...needed, id: 'run-9', task: 'HandEggRotate' } }));
+  openRun({ state: 'blocked', reason: 'Waits for the locomotion run run-9.', needs: ['run-8', 'run-9'] });
+  const first = await screen.findByRole('link', { name: 'HandEggTranslate' });
+  expect(first.getAttribute('href')).toBe('/runs/run-8');
+  expect((await screen.findByRole('link', { name: 'HandEggRotate' })).getAttribute('href')).toBe('/runs/run-9');
+  expect(screen.getByRole('link', { name: 'Watch the locomotion run' }).getAttribute('href')).toBe('/runs/run-9');
+});
+
+test('a run says which locomotion runs it learns from', async () => {
+  openRun({ needs: ['run-8', 'run-9'] }, '?tab=config');
+  const link = await screen.findByRole('link', { name: 'its locomotion run run-9' });
+  expect(link.getAttribute('href')).toBe('/runs/run-9');
+  expect(screen.getByRole('link', { name: 'its locomotion run run-8' })).toBeTruthy();
 });
 
 test('the history shows where each attempt trained and how it ended', async () => {

@@ -91,6 +91,41 @@ test('a few selected runs lead to their comparison', async () => {
   expect(bar.getByRole('link', { name: 'Differences' }).getAttribute('href')).toBe('/compare/configs?runs=run-1,run-3');
 });
 
+test('selected locomotion runs are compared as such, beside others not at all', async () => {
+  const runs = ['manipulation', 'locomotion', 'locomotion'].map((phase, seed) => ({
+    ...RUN,
+    id: `run-${seed}`,
+    seed,
+    phase,
+  }));
+  server.on('GET /api/runs', () => ({ body: { runs, values: [[], [], []], next_cursor: null, total: 3 } }));
+  const { user } = openPage('/');
+  await user.click(await screen.findByRole('checkbox', { name: /seed 1$/ }));
+  await user.click(await screen.findByRole('checkbox', { name: /seed 2$/ }));
+  const link = within(await screen.findByRole('toolbar', { name: 'Selected runs' })).getByRole('link', {
+    name: 'Compare',
+  });
+  expect(link.getAttribute('href')).toBe('/compare?runs=run-1,run-2&phase=locomotion');
+  await user.click(await screen.findByRole('checkbox', { name: /seed 0$/ }));
+  expect(link.getAttribute('href')).toBe('/compare?runs=run-0');
+  expect(link.title).toBe('Compares the manipulation runs alone');
+});
+
+test('selected runs out of view are let go by an action, for nobody tells how they stand now', async () => {
+  withRuns(MANY);
+  server.on('POST /api/runs/actions', ({ body }) => ({
+    body: {
+      results: (body as { run_ids: string[] }).run_ids.map((run_id) => ({ run_id, done: true, message: 'Done.' })),
+    },
+  }));
+  const { user } = openPage('/');
+  await user.click(await screen.findByRole('checkbox', { name: 'Select all runs of this table' }));
+  const bar = within(await screen.findByRole('toolbar', { name: 'Selected runs' }));
+  expect(bar.getByText(/^1\s000 runs selected$/)).toBeTruthy();
+  await user.click(bar.getByRole('button', { name: /^Pause/ }));
+  expect(await bar.findByText(/^(50|100) runs selected$/)).toBeTruthy();
+});
+
 test('filters are chips that can be taken away', async () => {
   const { user, router } = openPage('/?state=queued,running&seed_from=2');
   const chips = within(await screen.findByRole('list', { name: 'Filters' }));
@@ -125,6 +160,22 @@ test('a group shows its spread, opens to its runs, and stays open in the address
   expect(await screen.findByRole('checkbox', { name: /seed 0$/ })).toBeTruthy();
   expect(lastQuery().getAll('method')).toEqual(['her-sldr']);
   expect(router.state.location.search).toMatchObject({ open: 'FetchPush|her-sldr' });
+});
+
+test('selecting a closed group asks how its runs stand now', async () => {
+  const { user } = openPage('/?group=task,method');
+  const head = await screen.findByRole('button', { name: 'FetchPush · her-sldr' });
+  await user.click(head);
+  await screen.findByRole('checkbox', { name: /seed 0$/ });
+  await user.click(head);
+  await waitFor(() => expect(screen.queryByRole('checkbox', { name: /seed 0$/ })).toBeNull());
+  server.on('GET /api/runs', ({ url }) => {
+    const answer = page(url, FEW);
+    return { body: { ...answer, runs: answer.runs.map((run) => ({ ...run, state: 'failed' })) } };
+  });
+  await user.click(screen.getByRole('checkbox', { name: /FetchPush · her-sldr/ }));
+  const bar = within(await screen.findByRole('toolbar', { name: 'Selected runs' }));
+  expect(bar.getByRole('button', { name: /^Retry/ })).toBeTruthy();
 });
 
 test('what is shown can be saved, and a saved view opened', async () => {

@@ -16,13 +16,19 @@ const route = getRouteApi('/compare/configs');
 export function ConfigsPage() {
   const runIds = partsOf(route.useSearch().runs);
   const { data, error } = useQuery(configsQuery(runIds));
+  const isOfObjects = data?.runs.every((run) => run.phase === 'locomotion') ?? false;
   return (
     <>
       <title>What differs · SLDR</title>
       <div className="page-head">
         <h1>What differs</h1>
         <span className="faint number">{data && formatPlural(data.runs.length, 'run')}</span>
-        <ButtonLink to="/compare" search={{ runs: runIds.join(',') }} variant="default" ml="auto">
+        <ButtonLink
+          to="/compare"
+          search={{ runs: runIds.join(','), phase: isOfObjects ? 'locomotion' : undefined }}
+          variant="default"
+          ml="auto"
+        >
           Compare their curves
         </ButtonLink>
       </div>

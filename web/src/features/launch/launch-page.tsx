@@ -3,6 +3,7 @@ import { Button } from '@mantine/core';
 import { useQuery } from '@tanstack/react-query';
 import { getRouteApi } from '@tanstack/react-router';
 import type { Choices } from '@/client/schema.gen';
+import { AnchorLink, ButtonLink } from '@/components/anchor-link';
 import { FirstSteps } from '@/components/first-steps';
 import { SentencePanel } from '@/components/sentence-panel';
 import { sentence } from '@/lib/api';
@@ -15,6 +16,7 @@ import { LaunchChoices } from './components/launch-choices';
 import { LaunchPlanPanel } from './components/launch-plan-panel';
 import { fieldProblems } from './field-problems';
 import type { LaunchSearch } from './search';
+import { type Begin, useBegin } from './use-begin';
 import { useLaunchForm } from './use-launch-form';
 
 const route = getRouteApi('/launch');
@@ -33,7 +35,7 @@ export function LaunchPage() {
         <h1>New run</h1>
       </div>
       {runs?.total === 0 && <FirstSteps isAtForm />}
-      {choices && <Form choices={choices} />}
+      {choices && <Beginning choices={choices} />}
       {error && !choices && (
         <SentencePanel
           urgent
@@ -47,16 +49,40 @@ export function LaunchPage() {
   );
 }
 
-function Form({ choices }: { choices: Choices }) {
+function Beginning({ choices }: { choices: Choices }) {
+  const { from } = route.useSearch();
+  const { begin, error, retry } = useBegin(choices, from);
+  // A new key per run: what was typed for another one is gone.
+  if (begin) return <Form key={from} choices={choices} begin={begin} />;
+  if (!error) return <p className="faint">Looking…</p>;
+  return (
+    <SentencePanel
+      urgent
+      title="The run to launch again cannot be read"
+      actions={
+        <>
+          <Button onClick={retry}>Try again</Button>
+          <ButtonLink from="/launch" to="." search={(old) => ({ ...old, from: undefined })} variant="default">
+            Begin without it
+          </ButtonLink>
+        </>
+      }
+    >
+      {sentence(error)}
+    </SentencePanel>
+  );
+}
+
+function Form({ choices, begin }: { choices: Choices; begin: Begin }) {
   const search = route.useSearch();
   const navigate = route.useNavigate();
-  const form = useLaunchForm(search, choices);
+  const form = useLaunchForm(search, choices, begin);
   const launching = useLaunch();
   const refused = fieldProblems(launching.error, form.known);
   const problems = { ...refused.fields, ...form.problems };
   const choose = (changes: LaunchSearch): void => {
     launching.reset();
-    void navigate({ search: (old) => ({ ...old, ...changes }), replace: true });
+    void navigate({ search: (old) => ({ ...old, ...changes }), replace: true, resetScroll: false });
   };
   const submit = async (): Promise<void> => {
     if (form.launch === null) return;
@@ -78,6 +104,15 @@ function Form({ choices }: { choices: Choices }) {
       }}
     >
       <div className={classes.fields}>
+        {begin.run && (
+          <p className="faint">
+            {'The form begins as '}
+            <AnchorLink to="/runs/$runId" params={{ runId: begin.run.id }} fz="inherit">
+              run {begin.run.id}
+            </AnchorLink>
+            {' was launched.'}
+          </p>
+        )}
         <LaunchChoices choices={choices} chosen={form.chosen} problems={problems} onChoose={choose} />
         <AdvancedSettings
           form={form}

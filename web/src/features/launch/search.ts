@@ -8,6 +8,8 @@ export interface LaunchSearch {
   readonly seeds?: string;
   /** `zoo`, `train`, or ids of locomotion runs. */
   readonly locomotion?: string;
+  /** The id of the run that is launched again. */
+  readonly from?: string;
 }
 
 /** Read the choices from an address; what makes no sense is left out. */
@@ -23,6 +25,7 @@ export function readLaunchSearch(raw: Record<string, unknown>): LaunchSearch {
     method: text('method'),
     preset: text('preset'),
     locomotion: text('locomotion'),
+    from: text('from'),
     // An empty field stays empty: the form says that a seed is missing.
     seeds: raw.seeds === undefined ? undefined : String(raw.seeds ?? ''),
   };

@@ -9,6 +9,7 @@ import { overridesOf, readSettingGroups } from '@/lib/settings';
 import { planQuery } from './api/plan-launch';
 import { fieldProblems } from './field-problems';
 import type { LaunchSearch } from './search';
+import type { Begin } from './use-begin';
 
 /** Rest after the last change before the plan is asked for [ms]. */
 const REST_MS = 250;
@@ -16,17 +17,18 @@ const REST_MS = 250;
 const CHOICE_FIELDS = ['task', 'phase', 'method', 'preset', 'seeds', 'locomotion'];
 
 /** Every choice made, by the person or by default. */
-export type Chosen = Required<LaunchSearch>;
+export type Chosen = Required<Omit<LaunchSearch, 'from'>>;
 
 /** Fill the choices that the address leaves open. */
-export function fillChoices(search: LaunchSearch, choices: Choices): Chosen {
+export function fillChoices(search: LaunchSearch, choices: Choices, begin: Begin): Chosen {
   const phase = search.phase ?? 'manipulation';
   const methods = choices.methods.filter((method) => method.phases.includes(phase));
   const pick = (wanted: string, names: readonly string[]): string =>
     names.includes(wanted) ? wanted : (names[0] ?? '');
   const methodNames = methods.map((method) => method.name);
+  const task = search.task ?? choices.tasks[0]?.name ?? '';
   return {
-    task: search.task ?? choices.tasks[0]?.name ?? '',
+    task,
     phase,
     method: pick(search.method ?? (phase === 'manipulation' ? 'her-sldr' : 'her'), methodNames),
     preset:
@@ -36,14 +38,15 @@ export function fillChoices(search: LaunchSearch, choices: Choices): Chosen {
         choices.presets.map((preset) => preset.name),
       ),
     seeds: search.seeds ?? '0',
-    locomotion: search.locomotion ?? 'zoo',
+    // Locomotion runs serve their own task alone.
+    locomotion: search.locomotion ?? (begin.run?.task === task ? begin.locomotion : 'zoo'),
   };
 }
 
-export function useLaunchForm(search: LaunchSearch, choices: Choices) {
-  const chosen = fillChoices(search, choices);
+export function useLaunchForm(search: LaunchSearch, choices: Choices, begin: Begin) {
+  const chosen = fillChoices(search, choices, begin);
   const { task, phase, method, preset } = chosen;
-  const [typed, setTyped] = useState<Readonly<Record<string, string>>>({});
+  const [typed, setTyped] = useState(begin.typed);
   const groups = useMemo(() => readSettingGroups(choices.config_schema), [choices.config_schema]);
   const known = useMemo(
     () => new Set([...CHOICE_FIELDS, ...groups.flatMap((group) => group.settings.map((setting) => setting.path))]),

@@ -16,6 +16,9 @@ const QUEUE = [
   entry('paused', 'paused'),
 ];
 
+const WHOLE = { entries: QUEUE, isWhole: true };
+const CUT = { entries: QUEUE, isWhole: false };
+
 test.each([
   ['b', -1, { runId: 'b', before: 'a' }],
   ['a', 1, { runId: 'a', before: 'c' }],
@@ -25,7 +28,7 @@ test.each([
   ['running', 1, undefined],
   ['blocked', 1, undefined],
 ] as const)('a step of %s by %d is %j', (id, step, move) => {
-  expect(stepped(QUEUE, id, step)).toEqual(move);
+  expect(stepped(WHOLE, id, step)).toEqual(move);
 });
 
 test.each([
@@ -37,7 +40,14 @@ test.each([
   ['a', 'running', true, undefined],
   ['a', 'blocked', true, undefined],
 ] as const)('%s dropped on %s, lower half %s, is %j', (id, on, isLower, move) => {
-  expect(dropped(QUEUE, id, on, isLower)).toEqual(move);
+  expect(dropped(WHOLE, id, on, isLower)).toEqual(move);
+});
+
+test('behind the last row of a list that is cut nothing can be put', () => {
+  expect(stepped(CUT, 'b', 1)).toBeUndefined();
+  expect(dropped(CUT, 'a', 'c', true)).toBeUndefined();
+  expect(stepped(CUT, 'a', 1)).toEqual({ runId: 'a', before: 'c' });
+  expect(dropped(CUT, 'c', 'a', false)).toEqual({ runId: 'c', before: 'a' });
 });
 
 test('the order is shown as it will be', () => {

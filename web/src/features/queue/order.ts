@@ -12,22 +12,37 @@ export function isMovable({ run }: QueueEntry): boolean {
   return run.state === 'queued';
 }
 
-/** One place up or down; undefined where the run stands at that end already. */
-export function stepped(entries: readonly QueueEntry[], runId: string, step: -1 | 1): Move | undefined {
+/** What is known of the queue: the rows shown, and whether they are all. */
+export interface ShownQueue {
+  readonly entries: readonly QueueEntry[];
+  readonly isWhole: boolean;
+}
+
+/** One place up or down; undefined where the run stands at that end already, or nobody knows what follows. */
+export function stepped({ entries, isWhole }: ShownQueue, runId: string, step: -1 | 1): Move | undefined {
   const ids = entries.filter(isMovable).map((entry) => entry.run.id);
   const at = ids.indexOf(runId);
   if (at === -1 || ids[at + step] === undefined) return undefined;
-  return { runId, before: (step === -1 ? ids[at - 1] : ids[at + 2]) ?? null };
+  return placedBefore(runId, step === -1 ? ids[at - 1] : ids[at + 2], isWhole);
 }
 
-/** Dropped on the upper or lower half of another row; undefined where that changes nothing. */
-export function dropped(entries: readonly QueueEntry[], runId: string, on: string, isLower: boolean): Move | undefined {
+/** Dropped on the upper or lower half of another row; undefined where that changes nothing, or nobody knows what follows. */
+export function dropped(
+  { entries, isWhole }: ShownQueue,
+  runId: string,
+  on: string,
+  isLower: boolean,
+): Move | undefined {
   const ids = entries.filter(isMovable).map((entry) => entry.run.id);
   const place = ids.indexOf(on) + (isLower ? 1 : 0);
-  const before = ids[place] ?? null;
   const at = ids.indexOf(runId);
   if (at === -1 || ids.indexOf(on) === -1 || place === at || place === at + 1) return undefined;
-  return { runId, before };
+  return placedBefore(runId, ids[place], isWhole);
+}
+
+/** Behind the last row shown is the end of the queue only if no more rows follow. */
+function placedBefore(runId: string, before: string | undefined, isWhole: boolean): Move | undefined {
+  return before === undefined && !isWhole ? undefined : { runId, before: before ?? null };
 }
 
 /** The queue as it will be; places are counted anew by the server. */

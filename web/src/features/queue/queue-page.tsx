@@ -49,7 +49,7 @@ export function QueuePage() {
           Launched runs stand here until they have ended, in the order in which they start.
         </SentencePanel>
       )}
-      {data && data.entries.length > 0 && <QueueList entries={data.entries} />}
+      {data && data.entries.length > 0 && <QueueList queue={{ entries: data.entries, isWhole: hidden === 0 }} />}
       {hidden > 0 && (
         <p className="faint">
           {formatPlural(hidden, 'run')} more.{' '}

@@ -61,7 +61,8 @@ function RunTabs({ run }: { run: RunDetail }) {
   const search = route.useSearch();
   const navigate = route.useNavigate();
   const show = (changes: RunSearch): void => {
-    void navigate({ search: (old) => ({ ...old, ...changes }), replace: true });
+    // Another tab begins at its top; all else happens where the person looks.
+    void navigate({ search: (old) => ({ ...old, ...changes }), replace: true, resetScroll: 'tab' in changes });
   };
   return (
     <Tabs

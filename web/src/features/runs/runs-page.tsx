@@ -87,6 +87,7 @@ export function RunsPage() {
             runs={selected}
             selection={table.selection}
             total={total ?? 0}
+            isAtHand={(id) => lines.findRun(id) !== undefined}
             onSelectAll={
               total !== undefined && selected.length < total && total <= MOST_SELECTED
                 ? () => table.selectAll(true)

@@ -1,5 +1,5 @@
 /** The lines of the table as it stands in the address: runs one after the other, or in groups. */
-import { useQueries, useQuery, useQueryClient } from '@tanstack/react-query';
+import { useQueries, useQuery } from '@tanstack/react-query';
 import type { RunGroup, RunPage, RunSummary } from '@/client/schema.gen';
 import { groupId, groupsQuery, searchOfGroup } from './api/list-groups';
 import { fetchRowsBetween, PAGE_SIZE, runsPageQuery } from './api/list-runs';
@@ -46,7 +46,6 @@ function useRunLines(search: RunsSearch, shown: Range, isWanted: boolean): Lines
 const MOST_IN_GROUP = PAGE_SIZE;
 
 function useGroupLines(search: RunsSearch, isWanted: boolean): Lines {
-  const queries = useQueryClient();
   const { data, dataUpdatedAt, error } = useQuery({ ...groupsQuery(search), enabled: isWanted });
   const by = search.group ?? [];
   const groups = data?.groups ?? [];
@@ -69,8 +68,9 @@ function useGroupLines(search: RunsSearch, isWanted: boolean): Lines {
     findRun: (id) => found(open.map(pageOf), id),
     runsBetween: ({ first, last }) => runsAmong(lines.slice(first, last + 1)),
     runsOfGroup: (group) => {
-      const known = queries.getQueryData(runsPageQuery(searchOfGroup(search, group), 0).queryKey);
-      if (known !== undefined && known.total <= MOST_IN_GROUP) return known.runs;
+      // What is known of a group that was closed since may be as old as the closing.
+      const { data: known, isPlaceholderData = true } = members[open.indexOf(group)] ?? {};
+      if (known !== undefined && !isPlaceholderData && known.total <= MOST_IN_GROUP) return known.runs;
       return fetchRowsBetween(searchOfGroup(search, group), 0, group.runs - 1);
     },
   };

@@ -1,5 +1,4 @@
 /** Task, phase, method, seeds and preset. */
-import { Chip, Group, TextInput } from '@mantine/core';
 import type { Choices } from '@/client/schema.gen';
 import { ChoiceCards } from '@/components/choice-cards';
 import { LocomotionChoice } from '@/components/locomotion-choice';
@@ -7,7 +6,7 @@ import { MethodHelpButton } from '@/components/method-help-button';
 import { formatName } from '@/lib/format';
 import type { LaunchSearch } from '../search';
 import type { Chosen } from '../use-launch-form';
-import classes from './launch.module.css';
+import { SeedsField } from './seeds-field';
 import { TaskPicture } from './task-picture';
 import { TaskSummary } from './task-summary';
 
@@ -15,8 +14,6 @@ const PHASES = {
   manipulation: 'The robot learns to move the object. Methods with SLDR bring the locomotion run they need.',
   locomotion: 'The object learns to move itself to its goal, without the robot.',
 };
-
-const SEED_SHORTCUTS = ['0', '0-2', '0-4', '0-9'];
 
 interface Props {
   choices: Choices;
@@ -83,25 +80,7 @@ export function LaunchChoices({ choices, chosen, problems, onChoose }: Props) {
           onChange={(locomotion) => onChoose({ locomotion })}
         />
       )}
-      <div>
-        <div className={classes.seeds}>
-          <TextInput
-            label="Seeds"
-            description="One run per seed: 0, or 0-4, or 1, 3, 7-9"
-            w={280}
-            value={chosen.seeds}
-            error={problems.seeds}
-            onChange={(event) => onChoose({ seeds: event.currentTarget.value })}
-          />
-          <Group gap={4} role="group" aria-label="Common seeds">
-            {SEED_SHORTCUTS.map((seeds) => (
-              <Chip key={seeds} size="xs" checked={chosen.seeds.trim() === seeds} onChange={() => onChoose({ seeds })}>
-                {seeds}
-              </Chip>
-            ))}
-          </Group>
-        </div>
-      </div>
+      <SeedsField seeds={chosen.seeds} problem={problems.seeds} onChange={(seeds) => onChoose({ seeds })} />
     </>
   );
 }

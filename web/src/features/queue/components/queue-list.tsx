@@ -6,11 +6,12 @@ import { useMay } from '@/lib/access';
 import { sentence } from '@/lib/api';
 import { runTitle } from '@/lib/run-title';
 import { useMoveRun } from '../api/move-run';
-import { dropped, isMovable, type Move, stepped } from '../order';
+import { dropped, isMovable, type Move, type ShownQueue, stepped } from '../order';
 import classes from './queue.module.css';
 import { QueueRow } from './queue-row';
 
-export function QueueList({ entries }: { entries: readonly QueueEntry[] }) {
+export function QueueList({ queue }: { queue: ShownQueue }) {
+  const { entries } = queue;
   const toast = useToast();
   const moving = useMoveRun();
   const isMine = useMay('operator');
@@ -42,11 +43,11 @@ export function QueueList({ entries }: { entries: readonly QueueEntry[] }) {
               isTarget={dragged !== null && dragged !== id && isMovable(entry)}
               onDrag={(isDragging) => setDragged(isDragging ? id : null)}
               onDrop={(isLower) => {
-                if (dragged !== null) move(dropped(entries, dragged, id, isLower));
+                if (dragged !== null) move(dropped(queue, dragged, id, isLower));
                 setDragged(null);
               }}
-              up={isMine ? stepped(entries, id, -1) : undefined}
-              down={isMine ? stepped(entries, id, 1) : undefined}
+              up={isMine ? stepped(queue, id, -1) : undefined}
+              down={isMine ? stepped(queue, id, 1) : undefined}
               onMove={move}
             />
           );

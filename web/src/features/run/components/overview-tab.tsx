@@ -113,9 +113,7 @@ function Section({ name, children }: { name: string; children: React.ReactNode[]
 }
 
 function NoCurves({ run }: { run: RunDetail }) {
-  if (run.state === 'blocked' && run.locomotion_run_id !== null) {
-    return <WaitingPanel run={run} locomotionId={run.locomotion_run_id} />;
-  }
+  if (run.state === 'blocked' && run.needs.length > 0) return <WaitingPanel run={run} />;
   const words: Partial<Record<RunDetail['state'], string>> = {
     blocked: 'The run waits for its locomotion model; its curves appear here once it trains.',
     queued: 'The run waits for a free worker; its curves appear here once it trains.',

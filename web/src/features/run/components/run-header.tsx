@@ -36,6 +36,7 @@ export function RunHeader({ run, updatedAt }: { run: RunDetail; updatedAt: numbe
               method: run.method,
               preset: run.preset,
               seeds: String(run.seed),
+              from: run.id,
             }}
             variant="default"
             size="xs"
@@ -74,14 +75,15 @@ function Standing({ run }: { run: RunDetail }) {
           <Reason text={run.reason} runIds={run.needs} />
         </span>
       )}
-      {run.locomotion_run_id !== null && run.state !== 'blocked' && (
-        <span className="faint">
-          {'Learns from '}
-          <AnchorLink to="/runs/$runId" params={{ runId: run.locomotion_run_id }} fz="inherit">
-            its locomotion run
-          </AnchorLink>
-        </span>
-      )}
+      {run.state !== 'blocked' &&
+        run.needs.map((id) => (
+          <span key={id} className="faint">
+            {'Learns from '}
+            <AnchorLink to="/runs/$runId" params={{ runId: id }} fz="inherit">
+              {run.needs.length > 1 ? `its locomotion run ${id}` : 'its locomotion run'}
+            </AnchorLink>
+          </span>
+        ))}
     </p>
   );
 }

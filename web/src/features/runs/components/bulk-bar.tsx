@@ -24,14 +24,22 @@ interface Props {
   selection: Selection;
   /** Runs that pass the filters, in view or not. */
   total: number;
+  /** Whether a run is kept fresh by a line in view. */
+  isAtHand: (runId: string) => boolean;
   /** Select them all; left out where that is done, or there are too many. */
   onSelectAll?: () => void;
 }
 
-export function BulkBar({ runs, selection, total, onSelectAll }: Props) {
-  const { act, isActing, question } = useRunActing((action) => {
+export function BulkBar({ runs, selection, total, isAtHand, onSelectAll }: Props) {
+  const { act, isActing, question } = useRunActing((action, doneIds) => {
     // Deleted or restored rows are gone from this list; the others stay at hand for the next step.
     if (action === 'delete' || action === 'restore') selection.clear();
+    // Nobody tells of the rest how they stand now.
+    else
+      selection.set(
+        runs.filter(({ id }) => doneIds.includes(id) && !isAtHand(id)),
+        false,
+      );
   });
   const waiting = runs.filter((run) => !hasEnded(run.state) && run.deleted_at === null);
   return (

@@ -9,16 +9,33 @@ const MOST_COMPARED = 200;
 
 export function BulkCompare({ runs }: { runs: readonly RunSummary[] }) {
   if (runs.length > MOST_COMPARED) return null;
-  const ids = runs.map((run) => run.id).join(',');
+  const ofRobot = runs.filter((run) => run.phase === 'manipulation');
+  // The compare page shows one phase, that of the robot unless it is told otherwise.
+  const [compared, phase] = ofRobot.length > 0 ? [ofRobot, ''] : [runs, '&phase=locomotion'];
   return (
     <>
-      <PageLink href={`/compare?runs=${ids}`}>Compare</PageLink>
-      {runs.length > 1 && <PageLink href={`/compare/configs?runs=${ids}`}>Differences</PageLink>}
+      <PageLink
+        href={`/compare?runs=${idsOf(compared)}${phase}`}
+        title={compared.length < runs.length ? 'Compares the manipulation runs alone' : undefined}
+      >
+        Compare
+      </PageLink>
+      {runs.length > 1 && <PageLink href={`/compare/configs?runs=${idsOf(runs)}`}>Differences</PageLink>}
     </>
   );
 }
 
-function PageLink({ href, children }: { href: string; children: ReactNode }) {
+function idsOf(runs: readonly RunSummary[]): string {
+  return runs.map((run) => run.id).join(',');
+}
+
+interface LinkProps {
+  href: string;
+  title?: string | undefined;
+  children: ReactNode;
+}
+
+function PageLink({ href, title, children }: LinkProps) {
   const { history } = useRouter();
   const go = (event: MouseEvent): void => {
     if (event.metaKey || event.ctrlKey || event.shiftKey) return;
@@ -26,7 +43,7 @@ function PageLink({ href, children }: { href: string; children: ReactNode }) {
     history.push(href);
   };
   return (
-    <Button component="a" href={href} variant="default" size="compact-sm" onClick={go}>
+    <Button component="a" href={href} title={title} variant="default" size="compact-sm" onClick={go}>
       {children}
     </Button>
   );

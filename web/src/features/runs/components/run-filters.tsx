@@ -1,8 +1,9 @@
 /** Narrow the table: a field for any word, and a panel for everything else. */
 import { Button, FocusTrap, Popover, TextInput } from '@mantine/core';
 import { useDebouncedCallback } from '@mantine/hooks';
-import { Suspense, useEffect, useRef, useState } from 'react';
+import { Suspense } from 'react';
 import { Icon } from '@/components/icon';
+import { useTyped } from '@/lib/use-typed';
 import type { RunsFilter } from '../search';
 import { FilterFields } from './lazy-parts';
 import classes from './runs.module.css';
@@ -16,18 +17,8 @@ interface Props {
 }
 
 export function SearchField({ search: { search: text = '' }, onChange }: Props) {
-  const [typed, setTyped] = useState(text);
-  // What was typed is on its way into the address; anything else that comes to stand there came from outside.
-  const sent = useRef<readonly string[]>([]);
-  useEffect(() => {
-    const isOwn = sent.current.includes(text);
-    if (!isOwn || text === sent.current.at(-1)) sent.current = [];
-    if (!isOwn) setTyped(text);
-  }, [text]);
-  const apply = useDebouncedCallback((next: string) => {
-    sent.current = [...sent.current, next];
-    onChange({ search: next || undefined });
-  }, TYPING_REST_MS);
+  const { typed, type, send } = useTyped(text, (next) => onChange({ search: next || undefined }));
+  const sendRested = useDebouncedCallback(send, TYPING_REST_MS);
   return (
     <TextInput
       size="xs"
@@ -38,8 +29,8 @@ export function SearchField({ search: { search: text = '' }, onChange }: Props) 
       leftSection={<Icon name="search" size={14} />}
       value={typed}
       onChange={(event) => {
-        setTyped(event.currentTarget.value);
-        apply(event.currentTarget.value);
+        type(event.currentTarget.value);
+        sendRested(event.currentTarget.value);
       }}
     />
   );
