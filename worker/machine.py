@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import os
 import shutil
 import subprocess
@@ -11,12 +12,19 @@ from importlib.metadata import version
 import psutil
 
 from backend.store.workers import Machine
+from sldr_core.errors import SldrError
 
 QUERY = ("nvidia-smi", "--query-gpu=index,uuid,name", "--format=csv,noheader")
 QUERY_PATIENCE_S = 20.0
 """The driver may have to be loaded first [s]."""
 VISIBLE_VARIABLE = "CUDA_VISIBLE_DEVICES"
 """Which GPUs a process may use, by number or name; CUDA's own variable."""
+
+log = logging.getLogger("sldr.worker")
+
+
+class DriverSilent(SldrError):
+    """Report a graphics driver that does not answer."""
 
 
 @dataclass(frozen=True)
@@ -46,10 +54,27 @@ def memory_used() -> int:
 
 
 def find_gpus() -> list[Gpu]:
-    """Return the GPUs that trainings here can use: none where PyTorch was built without CUDA."""
+    """Return the GPUs that trainings here can use: none where the driver does not answer."""
+    try:
+        return ask_for_gpus()
+    except DriverSilent as err:
+        log.warning("%s Trainings use the processor.", err)
+        return []
+
+
+def ask_for_gpus() -> list[Gpu]:
+    """Return the GPUs that trainings here can use: none where PyTorch was built without CUDA.
+
+    Raises:
+        DriverSilent: the driver does not answer.
+    """
     if version("torch").endswith("+cpu") or shutil.which(QUERY[0]) is None:
         return []
-    answer = subprocess.run(QUERY, capture_output=True, text=True, timeout=QUERY_PATIENCE_S, check=False)
+    try:
+        answer = subprocess.run(QUERY, capture_output=True, text=True, timeout=QUERY_PATIENCE_S, check=False)
+    except subprocess.TimeoutExpired as err:
+        told = f"The NVIDIA driver does not answer: {QUERY[0]} did not end within {QUERY_PATIENCE_S:g} s."
+        raise DriverSilent(told) from err
     if answer.returncode != 0:
         return []
     return visible_gpus(answer.stdout, os.environ.get(VISIBLE_VARIABLE))

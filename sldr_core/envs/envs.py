@@ -12,7 +12,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from sldr_core.config import Phase, RewardKind, TaskSpec
 from sldr_core.envs.parts import EnvParts, Start
-from sldr_core.envs.rewards import REWARDS, Offsets, goal_gaps, goal_offsets, is_success, object_positions
+from sldr_core.envs.rewards import (
+    REWARDS,
+    Offsets,
+    goal_gaps,
+    goal_offsets,
+    is_success,
+    object_positions,
+    remaining_distance,
+)
 from sldr_core.envs.scenes.welds import SUBSTEPS
 from sldr_core.envs.simulation import Array, Ids
 
@@ -124,6 +132,10 @@ class Envs:
     def offsets(self, achieved: NDArray[np.floating], goal: NDArray[np.floating]) -> Offsets:
         """Return how far achieved goals `[..., G]` are from desired ones, as `[...]`."""
         return goal_offsets(self.spec.goal, achieved, goal)
+
+    def remaining_distance(self, achieved: NDArray[np.floating], goal: NDArray[np.floating]) -> NDArray[np.floating]:
+        """Return how far achieved goals `[..., G]` are from desired ones in one number each, as `[...]`."""
+        return remaining_distance(self.spec.goal, achieved, goal)
 
     def object_positions(self, achieved: NDArray[np.floating]) -> NDArray[np.floating]:
         """Return the positions of the objects [m], `[..., O, 3]`, in achieved goals `[..., G]`."""

@@ -101,6 +101,21 @@ def goal_offsets(criterion: Criterion, achieved: Goals, goal: Goals) -> Offsets:
     return Offsets(distance, angle, gap)
 
 
+def remaining_distance(criterion: Criterion, achieved: Goals, goal: Goals) -> NDArray[np.floating]:
+    """Return how far goals `[..., G]` are in one number: one norm over all positions [m], or over what a pose scores.
+
+    A turn counts in it as the nearer of its quaternion's two signs is away: 2 sin(angle / 4).
+    """
+    if isinstance(criterion, PositionGoals):
+        return np.linalg.norm(achieved - goal, axis=-1)
+    squared = np.zeros(np.shape(achieved)[:-1])
+    if criterion.distance is not None:
+        squared += np.square(_pose_distance(achieved, goal))
+    if criterion.angle is not None:
+        squared += np.square(2.0 * np.sin(_pose_angle(criterion, achieved, goal) / 4.0))
+    return np.sqrt(squared)
+
+
 def object_positions(criterion: Criterion, achieved: Goals) -> NDArray[np.floating]:
     """Return the positions of the objects [m], `[..., O, 3]`, in achieved goals `[..., G]`."""
     if isinstance(criterion, PositionGoals):

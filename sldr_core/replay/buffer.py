@@ -101,10 +101,13 @@ def _reserve(path: Path, size: int) -> None:
     if path.exists() and path.stat().st_size != size:
         path.unlink()
     is_new = not path.exists()
+    path.touch()
     try:
-        with explain_full_disk(path), path.open("ab") as file:
+        # Where a file system cannot reserve, the C library reads and writes each block instead: not in a file that is
+        # opened to append, or only to write.
+        with explain_full_disk(path), path.open("r+b") as file:
             os.posix_fallocate(file.fileno(), 0, size)
-    except DiskTooFull:
+    except (DiskTooFull, OSError):
         if is_new:
             path.unlink()
         raise

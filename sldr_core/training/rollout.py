@@ -63,7 +63,7 @@ class Collected:
     success: NDArray[np.bool_]
     """Whether the last step met the goal, `[N]`."""
     final_distance: Floats
-    """Distance between the last achieved goal and the goal, `[N]`."""
+    """How far the last achieved goal was from the goal, as `Envs.remaining_distance` has it, `[N]`."""
 
 
 def collect_episodes(envs: Envs, act: Act, check: Check, watch: Watch | None = None) -> Collected:
@@ -93,7 +93,7 @@ def collect_episodes(envs: Envs, act: Act, check: Check, watch: Watch | None = N
     return Collected(
         episodes,
         envs.success(now.achieved, now.goal),
-        np.linalg.norm(now.achieved - now.goal, axis=1).astype(np.float32),
+        envs.remaining_distance(now.achieved, now.goal).astype(np.float32),
     )
 
 

@@ -18,8 +18,8 @@ from backend.store.settings import Settings, sqlite_url
 from worker.doctor import machine
 from worker.doctor.data import describe_store, look_at_files, look_at_home, look_at_store
 from worker.doctor.installation import compare_versions, look_at_page, look_at_versions
-from worker.doctor.machine import describe_disk, describe_gpus, look_at_port, look_at_renderer
-from worker.machine import Gpu
+from worker.doctor.machine import describe_disk, describe_gpus, look_at_gpu, look_at_port, look_at_renderer
+from worker.machine import DriverSilent, Gpu
 
 
 def test_versions_here_are_those_that_were_tested():
@@ -72,6 +72,15 @@ def test_room_on_the_disk_is_judged(free: int, nodes: int | None, standing: str)
 )
 def test_a_driver_without_use_is_pointed_out(gpus: list[Gpu], torch: str, driver: bool, standing: str):
     assert describe_gpus(gpus, torch, driver).standing == standing
+
+
+def test_a_driver_that_does_not_answer_is_told(monkeypatch: pytest.MonkeyPatch):
+    def ask_in_vain() -> list[Gpu]:
+        raise DriverSilent("The NVIDIA driver does not answer.")
+
+    monkeypatch.setattr(machine, "ask_for_gpus", ask_in_vain)
+    found = look_at_gpu()
+    assert (found.standing, found.told) == ("poor", "The NVIDIA driver does not answer.")
 
 
 def test_a_renderer_that_fails_or_hangs_is_told(monkeypatch: pytest.MonkeyPatch):

@@ -64,6 +64,9 @@ class CountedEnvs:
     def success(self, achieved: np.ndarray, goal: np.ndarray) -> np.ndarray:
         return np.array([self._succeeds[int(metres)] for metres in achieved[:, 0]])
 
+    def remaining_distance(self, achieved: np.ndarray, goal: np.ndarray) -> np.ndarray:
+        return achieved[:, 0]
+
     def _now(self) -> Observation:
         achieved = np.zeros((self.num_envs, 3))
         achieved[:, 0] = np.arange(self._begun - self.num_envs, self._begun)
@@ -102,6 +105,15 @@ def test_success_is_read_at_the_last_step() -> None:
     distances = np.linalg.norm(left.episodes.achieved - left.episodes.goal[:, None], axis=2)
     assert (distances.min(axis=1) < 0.05).all(), "every object has to have been at its goal"
     np.testing.assert_allclose(left.final_distance, distances[:, -1], atol=1e-6)
+
+
+def test_a_pose_is_as_far_as_what_its_task_scores() -> None:
+    envs = make_envs("HandBlockRotate", num_envs=2)
+
+    collected = collect_episodes(envs, lambda obs, goal: np.zeros((2, 20), dtype=np.float32), nothing)
+
+    turn = envs.offsets(collected.episodes.achieved[:, -1], collected.episodes.goal).angle
+    np.testing.assert_allclose(collected.final_distance, 2.0 * np.sin(turn / 4.0), atol=1e-5)
 
 
 def test_episodes_hold_every_state_from_first_to_last() -> None:

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import errno
+import fcntl
+import os
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from sldr_core.errors import DiskTooFull
 from sldr_core.records import Episodes
 from sldr_core.replay import ReplayBuffer, replay_bytes
 
@@ -31,6 +35,16 @@ def stored_episodes(buffer: ReplayBuffer) -> list[int]:
     """Return which episodes can be drawn, oldest first."""
     slots = buffer.slot_of(np.arange(len(buffer)))
     return [int(value) // 100 for value in buffer.arrays["obs"][slots, 0, 0]]
+
+
+def fallocate_without_help(descriptor: int, offset: int, size: int) -> None:
+    """Do as the C library does where the file system cannot reserve: read every block, and write to what is empty."""
+    if fcntl.fcntl(descriptor, fcntl.F_GETFL) & os.O_APPEND:
+        raise OSError(errno.EBADF, "told by the C library")
+    step = os.fstat(descriptor).st_blksize
+    for place in range(offset + (size - 1) % step, offset + size, step):
+        if os.pread(descriptor, 1, place) in (b"", b"\0"):
+            os.pwrite(descriptor, b"\0", place)
 
 
 @pytest.fixture
@@ -120,3 +134,34 @@ def test_a_file_with_holes_is_filled(path: Path) -> None:
     ReplayBuffer(path, SHAPES, capacity=9_000, slack=1_000)
 
     assert path.stat().st_blocks * 512 >= path.stat().st_size
+
+
+def test_a_file_system_that_cannot_reserve_holds_the_file_as_well(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(os, "posix_fallocate", fallocate_without_help)
+
+    before = ReplayBuffer(path, SHAPES, capacity=700, slack=3)
+    before.store(episodes(1, 200))
+    before.flush()
+    after = ReplayBuffer(path, SHAPES, capacity=700, slack=3)
+
+    assert path.stat().st_size == after.file_size
+    for name, values in before.arrays.items():
+        np.testing.assert_array_equal(after.arrays[name], values)
+
+
+@pytest.mark.parametrize("number", [errno.ENOSPC, errno.EOPNOTSUPP])
+def test_a_file_that_cannot_be_given_its_room_is_left_only_if_it_was_there(
+    number: int, path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(descriptor: int, offset: int, size: int) -> None:
+        raise OSError(number, "told by the system")
+
+    there = path.with_name("there.bin")
+    ReplayBuffer(there, SHAPES, capacity=7, slack=3)
+    monkeypatch.setattr(os, "posix_fallocate", refuse)
+
+    for place in (path, there):
+        with pytest.raises((OSError, DiskTooFull), match=r"told by the system|no room"):
+            ReplayBuffer(place, SHAPES, capacity=7, slack=3)
+
+    assert [left.name for left in path.parent.iterdir()] == ["there.bin"]

@@ -18,7 +18,7 @@ from sldr_core.episodes import episodes_file
 from worker.media.host import MediaHost
 
 SIZE = (168, 104)
-"""Of the videos: multiples of 8 and not of 16, the size at which ffmpeg's own choice would stretch them."""
+"""Of the videos: multiples of 8 and not of 16, which a codec might round to."""
 
 
 @dataclass(frozen=True)

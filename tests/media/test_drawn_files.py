@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import hashlib
 import subprocess
+from collections.abc import Iterator
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,8 +18,19 @@ from PIL import Image
 from backend.store.files import find_file
 from backend.store.media_jobs import MediaOrder, order_media
 from backend.store.thumbnails import THUMBNAIL, THUMBNAIL_FILE
+from sldr_core.disk import explain_full_disk
+from sldr_core.errors import DiskTooFull
 from worker.drawing import check_frame
-from worker.media.video import FRAMES_PER_S
+from worker.media.video import CODECS, FRAMES_PER_S, write_video
+
+FULL = Path("/dev/full")
+"""What the system keeps for such tests: there is never room in it."""
+
+
+def noise(count: int) -> Iterator[NDArray[np.uint8]]:
+    """Return frames of 64 x 64 pixels that cannot be made small."""
+    rng = np.random.default_rng(0)
+    return (rng.integers(256, size=(64, 64, 3), dtype=np.uint8) for _ in range(count))
 
 
 def decode(drawn: DrawnRun, name: str) -> tuple[str, NDArray[np.uint8]]:
@@ -64,3 +77,24 @@ def test_what_is_there_is_not_drawn_again(drawn: DrawnRun) -> None:
     job = drawn.jobs["a.mp4"]
     again = order_media(drawn.db, MediaOrder(job.run_id, "video", job.source, job.file_name, job.arguments))
     assert (again.id, again.state) == (job.id, "done")
+
+
+@pytest.mark.parametrize("suffix", CODECS)
+@pytest.mark.parametrize("count", [3, 300], ids=["found full at the end", "found full on the way"])
+def test_a_video_that_does_not_fit_on_its_disk_is_no_video(suffix: str, count: int) -> None:
+    with pytest.raises(DiskTooFull, match=r"There is no room for /dev/full: its disk has"), explain_full_disk(FULL):
+        write_video(FULL, suffix, noise(count), 64, 64)
+
+
+def test_what_ffmpeg_says_of_a_file_that_it_cannot_write_is_told(tmp_path: Path) -> None:
+    with pytest.raises(OSError, match=r"ffmpeg ended with status \d+ \(.*No such file or directory"):
+        write_video(tmp_path / "missing" / "a.webm", ".webm", noise(3), 64, 64)
+
+
+def test_a_frame_that_cannot_be_drawn_ends_the_video(tmp_path: Path) -> None:
+    def break_off() -> Iterator[NDArray[np.uint8]]:
+        yield from noise(2)
+        raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        write_video(tmp_path / "a.mp4", ".mp4", break_off(), 64, 64)

@@ -12,6 +12,7 @@ import pytest
 from rerun.experimental import RrdReader
 
 from sldr_core.records import Step
+from sldr_core.training.directory import LOCK_FILE, alone_in
 from worker.recording.content import Recording
 from worker.recording.rerun_file import write_recording
 
@@ -95,3 +96,25 @@ def test_a_write_that_fails_leaves_the_old_file(tmp_path):
 def test_logging_loads_neither_torch_nor_mujoco():
     code = "import sys, worker.recording.run_recording; sys.exit('torch' in sys.modules or 'mujoco' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+DIE_WHILE_WRITING = """
+import os, sys
+from pathlib import Path
+from worker.recording.content import Recording
+from worker.recording.rerun_file import write_recording
+
+class Death(tuple):
+    def __iter__(self):
+        os._exit(7)
+
+write_recording(Path(sys.argv[1]), Recording("FetchPush", [], {}, log=Death((None,))))
+"""
+
+
+def test_what_a_killed_writer_leaves_is_removed_by_the_next_training(tmp_path):
+    command = [sys.executable, "-c", DIE_WHILE_WRITING, str(tmp_path / "curves.rrd")]
+    assert subprocess.run(command, check=False).returncode == 7
+    assert len(list(tmp_path.glob(".*.tmp"))) == 1
+    with alone_in(tmp_path):
+        assert [path.name for path in tmp_path.iterdir()] == [LOCK_FILE]

@@ -11,7 +11,7 @@ import pytest
 
 from sldr_core.config import PoseGoal, PositionGoals, find_task
 from sldr_core.envs import make_envs
-from sldr_core.envs.rewards import dense_reward, goal_gaps
+from sldr_core.envs.rewards import dense_reward, goal_gaps, remaining_distance
 from sldr_core.errors import UnknownName
 
 with warnings.catch_warnings():
@@ -145,3 +145,31 @@ def test_gaps_are_the_distances_of_all_pairs_by_what_is_scored() -> None:
     assert both[0, 0, 0] < 1e-7
     blocks = goal_gaps(PositionGoals(distance=0.05, objects=2), goals[..., :6], others[..., :6])
     assert blocks[1, 2, 3] == pytest.approx(np.linalg.norm(goals[1, 2, :6] - others[1, 3, :6]))
+
+
+@pytest.mark.parametrize(("distance", "angle"), [(1.0, 1.0), (None, 1.0), (1.0, None)])
+def test_the_remaining_distance_of_poses_is_their_gap(distance: float | None, angle: float | None) -> None:
+    criterion = PoseGoal(distance=distance, angle=angle)
+    achieved, goals = random_goals("HandBlockFull", 0), random_goals("HandBlockFull", 1)
+
+    remaining = remaining_distance(criterion, achieved, goals)
+
+    np.testing.assert_allclose(remaining, goal_gaps(criterion, achieved, goals).diagonal(), atol=1e-12)
+
+
+def test_the_remaining_distance_knows_neither_the_sign_of_a_quaternion_nor_a_pen_s_roll() -> None:
+    goal = np.array([0.3, 0.0, 0.4, 1.0, 0.0, 0.0, 0.0])
+    rolled = np.array([0.3, 0.0, 0.4, cos(0.6), 0.0, 0.0, sin(0.6)])
+    block, pen = (find_task(task).goal for task in ("HandBlockFull", "HandPenFull"))
+
+    assert remaining_distance(block, goal * [1, 1, 1, -1, -1, -1, -1], goal) == pytest.approx(0.0, abs=1e-6)
+    assert remaining_distance(block, rolled, goal) == pytest.approx(2.0 * sin(0.3))
+    assert remaining_distance(pen, rolled, goal) == pytest.approx(0.0, abs=1e-6)
+
+
+def test_the_remaining_distance_of_positions_is_the_norm_to_the_last_bit() -> None:
+    achieved, goals = (np.random.default_rng(seed).normal(size=(GOALS, 6)) for seed in (0, 1))
+
+    remaining = remaining_distance(PositionGoals(distance=0.05, objects=2), achieved, goals)
+
+    np.testing.assert_array_equal(remaining, np.linalg.norm(achieved - goals, axis=1))

@@ -7,7 +7,8 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -17,11 +18,14 @@ import psutil
 import pytest
 import viewer_targets
 import viser
+from sqlalchemy import Connection
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Subprotocol
 
 from backend.store import viewer_sessions
 from backend.store.database import Database, open_database
+from backend.store.engines import open_engine, parse_address
+from backend.store.errors import StoreUnavailable
 from backend.store.launches import LaunchOrder, launch
 from backend.store.settings import Settings
 from sldr_core.config import TASKS
@@ -38,6 +42,38 @@ def database(settings: Settings) -> Iterator[Database]:
     database.close()
 
 
+class LeavingStore(Database):
+    """A store that can be away, and that can go away once something was written."""
+
+    is_away = False
+    leaves_after_write = False
+
+    @contextmanager
+    def read(self) -> Generator[Connection]:
+        self._check()
+        with super().read() as conn:
+            yield conn
+
+    @contextmanager
+    def write(self, is_news: bool = True) -> Generator[Connection]:
+        self._check()
+        with super().write(is_news) as conn:
+            yield conn
+        self.is_away = self.leaves_after_write
+
+    def _check(self) -> None:
+        if self.is_away:
+            raise StoreUnavailable("The store cannot be used just now: it is away.")
+
+
+@pytest.fixture
+def store(database: Database, settings: Settings) -> Iterator[LeavingStore]:
+    """Return the same store, whose tables `database` has made."""
+    store = LeavingStore(open_engine(parse_address(settings.database_url)))
+    yield store
+    store.close()
+
+
 @pytest.fixture
 def run_id(database: Database, settings: Settings, policy_path: Path) -> str:
     order = LaunchOrder(task="FetchPush", phase="locomotion", method="her", seeds=(0,), preset="smoke", overrides={})
@@ -52,8 +88,8 @@ def run_id(database: Database, settings: Settings, policy_path: Path) -> str:
 def make_host(database: Database, settings: Settings) -> Iterator[Callable[..., Host]]:
     hosts: list[Host] = []
 
-    def make(target: Callable[..., None], **limits: Any) -> Host:
-        host = Host(database, settings, target=target, limits=Limits(**limits), host_id=f"host-{len(hosts)}")
+    def make(target: Callable[..., None], store: Database = database, **limits: Any) -> Host:
+        host = Host(store, settings, target=target, limits=Limits(**limits), host_id=f"host-{len(hosts)}")
         host.begin()
         hosts.append(host)
         return host
@@ -225,3 +261,55 @@ def test_a_new_host_ends_what_a_killed_one_left_open(make_host, database, run_id
     make_host(viewer_targets.serve_nothing)
     ended = viewer_sessions.get_session(database, asked.id)
     assert (ended.state, ended.message) == ("ended", "The 3D viewer was started again; open the view once more.")
+
+
+def test_a_process_ends_while_the_store_is_away_which_hears_of_it_later(make_host, store, database, run_id):
+    host = make_host(viewer_targets.serve_nothing, store, unopened_s=0.2)
+    asked = viewer_sessions.request_session(database, run_id)
+    tick_until(host, database, asked.id, "ready")
+    process = host.served[asked.id].process.pid
+    store.is_away = True
+    time.sleep(0.3)
+    for _ in range(2):
+        with pytest.raises(StoreUnavailable):
+            host.tick()
+    assert not psutil.pid_exists(process)
+    store.is_away = False
+    assert tick_until(host, database, asked.id, "ended").message == "Nobody watched for 0 s."
+    assert not host.served
+
+
+def test_a_session_that_gets_ready_while_the_store_is_away_is_ready_later(make_host, store, database, run_id):
+    host = make_host(viewer_targets.serve_nothing, store)
+    asked = viewer_sessions.request_session(database, run_id)
+    tick_while(host, lambda: not host.served)
+    assert host.served[asked.id].pipe.poll(PATIENCE_S)
+    store.is_away = True
+    with pytest.raises(StoreUnavailable):
+        host.tick()
+    store.is_away = False
+    assert tick_until(host, database, asked.id, "ready").port == 1234
+
+
+def test_a_session_that_was_taken_when_the_store_went_away_is_served_later(make_host, store, database, run_id):
+    host = make_host(viewer_targets.serve_nothing, store)
+    asked = viewer_sessions.request_session(database, run_id)
+    store.leaves_after_write = True
+    with pytest.raises(StoreUnavailable):
+        host.tick()
+    assert viewer_sessions.get_session(database, asked.id).host_id == host.host_id
+    store.leaves_after_write = store.is_away = False
+    tick_until(host, database, asked.id, "ready")
+
+
+def test_no_process_is_left_by_a_host_that_closes_while_the_store_is_away(make_host, store, database, run_id):
+    host = make_host(viewer_targets.serve_nothing, store)
+    for _ in range(2):
+        asked = viewer_sessions.request_session(database, run_id)
+        tick_until(host, database, asked.id, "ready")
+    processes = [served.process.pid for served in host.served.values()]
+    store.is_away = True
+    with pytest.raises(StoreUnavailable):
+        host.close()
+    assert not any(psutil.pid_exists(process) for process in processes)
+    store.is_away = False

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import sys
 from pathlib import Path
@@ -14,9 +15,10 @@ from backend.store.database import Database
 from backend.store.outcomes import Failed, Lost
 from backend.store.queue import claim
 from backend.store.settings import Settings
+from worker import machine
 from worker.executors.endings import failure_of
 from worker.executors.local import LocalExecutor
-from worker.machine import Gpu, count_cores, describe_machine, memory_used, visible_gpus
+from worker.machine import Gpu, count_cores, describe_machine, find_gpus, memory_used, visible_gpus
 
 LISTED = """\
 0, GPU-1f3a0000-aaaa, NVIDIA H200
@@ -37,6 +39,21 @@ def test_every_gpu_is_used_unless_some_are_named() -> None:
 )
 def test_only_the_gpus_that_are_named_are_used(visible: str, devices: list[str]) -> None:
     assert [gpu.device for gpu in visible_gpus(LISTED, visible)] == devices
+
+
+def test_a_driver_that_does_not_answer_shows_no_gpu_and_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    (tmp_path / "nvidia-smi").write_text("#!/bin/sh\nexec sleep 60\n")
+    (tmp_path / "nvidia-smi").chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path), prepend=os.pathsep)
+    monkeypatch.setattr(machine, "version", lambda _: "2.13.0")
+    monkeypatch.setattr(machine, "QUERY_PATIENCE_S", 0.1)
+
+    assert find_gpus() == []
+    assert caplog.messages == [
+        "The NVIDIA driver does not answer: nvidia-smi did not end within 0.1 s. Trainings use the processor."
+    ]
 
 
 def test_a_machine_is_described_with_its_gpus() -> None:

@@ -14,7 +14,7 @@ from pathlib import Path
 
 from backend.client.access import find_local_server
 from worker.doctor.finding import Finding, ok, poor, wrong
-from worker.machine import Gpu, find_gpus
+from worker.machine import DriverSilent, Gpu, ask_for_gpus
 from worker.render import MISSING_EGL
 
 DRAWN_WITHIN_S = 60.0
@@ -49,7 +49,10 @@ def look_at_renderer(command: Sequence[str] = (sys.executable, "-c", PROBE)) -> 
 def look_at_gpu() -> Finding:
     """See whether trainings can use a graphics card."""
     driver = shutil.which("nvidia-smi") is not None
-    return describe_gpus(find_gpus(), version("torch"), driver)
+    try:
+        return describe_gpus(ask_for_gpus(), version("torch"), driver)
+    except DriverSilent as err:
+        return poor("GPU", str(err), "see what `nvidia-smi` says; restarting the machine loads the driver anew.")
 
 
 def describe_gpus(gpus: Sequence[Gpu], torch: str, has_driver: bool) -> Finding:

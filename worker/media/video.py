@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+import errno
+import os
+import subprocess
 from collections.abc import Iterable
+from contextlib import closing, suppress
 from pathlib import Path
-from typing import Any
+from tempfile import TemporaryFile
 
 import numpy as np
-from imageio_ffmpeg import write_frames
+from imageio_ffmpeg import get_ffmpeg_exe
 from numpy.typing import NDArray
+
+from sldr_core.disk import NO_ROOM
 
 FRAMES_PER_S = 25
 """A control step takes 0.04 s, so a video with a frame for each runs as fast as the world does."""
-
-BLOCK = 8
-"""Width and height are multiples of it [pixels]: ffmpeg would stretch what is not."""
 
 CODECS: dict[str, tuple[str, list[str]]] = {
     ".mp4": ("libx264", ["-preset", "veryfast", "-crf", "21", "-movflags", "+faststart", "-f", "mp4"]),
@@ -37,23 +40,33 @@ def write_video(path: Path, suffix: str, frames: Iterable[NDArray[np.uint8]], wi
         height: a multiple of 8 [pixels].
 
     Raises:
-        OSError: ffmpeg could not write the file.
+        OSError: ffmpeg could not write the file; its number is one of `NO_ROOM` where the disk is full.
     """
     codec, settings = CODECS[suffix]
-    open_writer: Any = write_frames  # its own types forbid `quality=None`, which leaves the quality to `-crf`
-    writer = open_writer(
-        path,
-        (width, height),
-        fps=FRAMES_PER_S,
-        codec=codec,
-        quality=None,
-        macro_block_size=BLOCK,
-        ffmpeg_log_level="error",
-        output_params=[*settings, *THREADS],
-    )
-    writer.send(None)
-    try:
+    given = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}", "-r", str(FRAMES_PER_S), "-i", "-"]
+    wanted = ["-c:v", codec, "-pix_fmt", "yuv420p", *settings, *THREADS]
+    command = [get_ffmpeg_exe(), "-y", "-v", "error", *given, *wanted, str(path)]
+    # What it says goes to a file: a pipe that nobody empties meanwhile would hold it up.
+    with TemporaryFile() as said, subprocess.Popen(command, stdin=subprocess.PIPE, stderr=said) as ffmpeg:
+        try:
+            _send(ffmpeg, frames)
+        except BaseException:
+            ffmpeg.kill()
+            raise
+        status = ffmpeg.wait()
+        said.seek(0)
+        _check(path, status, said.read().decode(errors="replace").strip())
+
+
+def _send(ffmpeg: subprocess.Popen[bytes], frames: Iterable[NDArray[np.uint8]]) -> None:
+    assert ffmpeg.stdin is not None
+    # It hangs up when it has failed; its exit status says so.
+    with suppress(BrokenPipeError), closing(ffmpeg.stdin) as pipe:
         for frame in frames:
-            writer.send(np.ascontiguousarray(frame))
-    finally:
-        writer.close()
+            pipe.write(frame.tobytes())
+
+
+def _check(path: Path, status: int, said: str) -> None:
+    if status != 0:
+        number = next((number for number in NO_ROOM if os.strerror(number) in said), errno.EIO)
+        raise OSError(number, f"ffmpeg ended with status {status} ({said or 'it said nothing'})", str(path))

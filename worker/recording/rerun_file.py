@@ -6,16 +6,15 @@ The whole file is written anew each time, beside the old one, and put in its pla
 
 from __future__ import annotations
 
-import contextlib
-import os
-import tempfile
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
+from sldr_core.disk import write_atomically
 from sldr_core.records import Step
 from worker.recording.blueprint import LOG, make_blueprint
 from worker.recording.content import Recording
@@ -26,23 +25,26 @@ APPLICATION = "sldr"
 
 
 def write_recording(path: Path, recording: Recording) -> None:
-    """Write a run and the layout of its views to a Rerun file, which appears whole or not at all."""
-    temporary = Path(_reserve(path))
-    try:
-        stream = rr.RecordingStream(APPLICATION)
-        stream.save(temporary, default_blueprint=make_blueprint(recording))
-        stream.send_recording_name(recording.title)
-        for name, column in recording.curves.items():
-            _send_curve(stream, name, recording.steps, column)
-        for scene in recording.episodes:
-            send_episode(stream, scene)
-        _send_log(stream, recording)
-        stream.flush()
-        stream.disconnect()
-        _sync(temporary)
-        temporary.replace(path)
-    finally:
-        temporary.unlink(missing_ok=True)
+    """Write a run and the layout of its views to a Rerun file, which appears whole or not at all.
+
+    Raises:
+        DiskTooFull: there is no room for it.
+    """
+    path.parent.mkdir(parents=True, exist_ok=True)
+    write_atomically(path, partial(_write, recording))
+
+
+def _write(recording: Recording, path: Path) -> None:
+    stream = rr.RecordingStream(APPLICATION)
+    stream.save(path, default_blueprint=make_blueprint(recording))
+    stream.send_recording_name(recording.title)
+    for name, column in recording.curves.items():
+        _send_curve(stream, name, recording.steps, column)
+    for scene in recording.episodes:
+        send_episode(stream, scene)
+    _send_log(stream, recording)
+    stream.flush()
+    stream.disconnect()
 
 
 def _send_curve(stream: rr.RecordingStream, name: str, steps: Sequence[Step], column: Sequence[float | None]) -> None:
@@ -73,18 +75,3 @@ def _send_log(stream: rr.RecordingStream, recording: Recording) -> None:
 
 def _column(steps: Sequence[Step], field: str, there: NDArray[np.intp]) -> NDArray:
     return np.array([getattr(steps[index], field) for index in there])
-
-
-def _reserve(path: Path) -> str:
-    """Return a new temporary file beside `path`."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}-")
-    os.close(handle)
-    with contextlib.suppress(PermissionError):
-        os.chmod(name, 0o644)
-    return name
-
-
-def _sync(path: Path) -> None:
-    with path.open("rb") as file:
-        os.fsync(file.fileno())

@@ -12,7 +12,7 @@ import signal
 import socket
 import time
 import uuid
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection
 from multiprocessing.context import ForkServerProcess
@@ -54,6 +54,14 @@ class Limits:
     """Time between two signs of life, of the host and of watched sessions [s]."""
 
 
+@dataclass(frozen=True)
+class Ending:
+    """Say why a session is over."""
+
+    message: str
+    failed: bool
+
+
 @dataclass
 class Served:
     """Follow one session and its process."""
@@ -67,6 +75,10 @@ class Served:
     was_watched: bool = False
     broken: str | None = None
     """Why it cannot go on, if it said so."""
+    ready: Ready | None = None
+    """That its page can be opened, until the store knows."""
+    ending: Ending | None = None
+    """Why its process was ended, until the store knows."""
 
 
 @dataclass
@@ -93,25 +105,37 @@ class Host:
         self._beat(time.monotonic())
 
     def tick(self) -> None:
-        """Hear the sessions, end those that are over, start those that are asked for."""
+        """Hear the sessions, end those that are over, start those that are asked for.
+
+        Raises:
+            StoreUnavailable: the store cannot be used just now; the next round tells it what it could not be told.
+        """
         now = time.monotonic()
         for served in list(self.served.values()):
-            self._hear(served, now)
-            self._end_if_over(served, now)
+            if served.ending is None:
+                self._hear(served, now)
+                self._end_if_over(served, now)
+            else:
+                self._forget(served, served.ending)
         open_sessions = viewer_sessions.list_open(self.database)
         self._end_closed({session.id for session in open_sessions})
-        if self.is_warm() and any(session.host_id is None for session in open_sessions):
-            self._take_next(now)
+        if self.is_warm():
+            self._serve_next(open_sessions, now)
         if now - self._beat_at >= self.limits.beat_s:
             self._beat(now)
 
     def close(self) -> None:
-        """End every session and its process."""
-        for served in list(self.served.values()):
-            self._end(served, "The 3D viewer was stopped.")
+        """End every session and its process.
 
-    def _take_next(self, now: float) -> None:
-        session = viewer_sessions.next_requested(self.database, self.host_id)
+        Raises:
+            StoreUnavailable: the store cannot be used just now; the next host ends what stays open in it.
+        """
+        endings = [(served, _stop(served, "The 3D viewer was stopped.")) for served in self.served.values()]
+        for served, ending in endings:
+            self._forget(served, ending)
+
+    def _serve_next(self, open_sessions: Sequence[viewer_sessions.Session], now: float) -> None:
+        session = self._next(open_sessions)
         if session is None:
             return
         try:
@@ -124,6 +148,15 @@ class Host:
             viewer_sessions.mark_ended(self.database, session.id, failed=True, message=message)
         else:
             self.served[session.id] = self._start(session, files, now)
+
+    def _next(self, open_sessions: Sequence[viewer_sessions.Session]) -> viewer_sessions.Session | None:
+        """Return a session that was taken and could not be served when the store went away, or take another."""
+        for session in open_sessions:
+            if session.host_id == self.host_id and session.id not in self.served:
+                return session
+        if any(session.host_id is None for session in open_sessions):
+            return viewer_sessions.next_requested(self.database, self.host_id)
+        return None
 
     def _start(self, session: viewer_sessions.Session, files: Files, now: float) -> Served:
         context = multiprocessing.get_context("forkserver")
@@ -152,11 +185,15 @@ class Host:
         except (EOFError, ConnectionResetError):
             # The process is gone or going; `_end_if_over` says why.
             served.process.join(ENDING_S)
+        if served.ready is not None:
+            told = served.ready
+            viewer_sessions.mark_ready(self.database, served.session.id, told.port, told.message, told.control_port)
+            served.ready = None
 
     def _take_report(self, served: Served, report: Report, now: float) -> None:
         match report:
-            case Ready(port, message, control_port):
-                viewer_sessions.mark_ready(self.database, served.session.id, port, message, control_port)
+            case Ready():
+                served.ready = report
                 served.idle_since = now  # nobody could look at it before
             case Watched(clients):
                 if served.clients or clients:
@@ -180,16 +217,13 @@ class Host:
             self._end(self.served[session_id], "It was closed.")
 
     def _end(self, served: Served, message: str, failed: bool = False) -> None:
+        self._forget(served, _stop(served, message, failed))
+
+    def _forget(self, served: Served, ending: Ending) -> None:
+        """Forget a session whose process was ended, once the store knows."""
+        viewer_sessions.mark_ended(self.database, served.session.id, ending.failed, ending.message)
+        log.info("session %s ended: %s", served.session.id, ending.message)
         del self.served[served.session.id]
-        viewer_sessions.mark_ended(self.database, served.session.id, failed, message)
-        log.info("session %s ended: %s", served.session.id, message)
-        served.process.terminate()
-        served.process.join(ENDING_S)
-        if served.process.is_alive():
-            served.process.kill()
-            served.process.join()
-        served.process.close()
-        served.pipe.close()
 
     def _beat(self, now: float) -> None:
         self._beat_at = now
@@ -209,6 +243,20 @@ class Host:
             find_session_files(self._files, session)
         except (SldrError, FilesUnavailable) as err:
             log.warning("session %s goes on with what it has: %s", session.id, err)
+
+
+def _stop(served: Served, message: str, failed: bool = False) -> Ending:
+    """End the process of a session, unless that was done before; return why."""
+    if served.ending is None:
+        served.ending = Ending(message, failed)
+        served.process.terminate()
+        served.process.join(ENDING_S)
+        if served.process.is_alive():
+            served.process.kill()
+            served.process.join()
+        served.process.close()
+        served.pipe.close()
+    return served.ending
 
 
 def _is_another_process(pid: int) -> bool:
