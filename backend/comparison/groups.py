@@ -71,6 +71,8 @@ def _place(run: ComparedRun) -> tuple[int, str, int, bool, int, int]:
 def _make_groups(kinds: set[tuple[str, str]]) -> list[Group]:
     methods = [*METHODS, *sorted({method for method, _ in kinds} - set(METHODS))]
     groups: list[Group] = []
+    # Beside other methods a colour says which one it is; variants of a single one can each have their own.
+    is_alone = len({method for method, _ in kinds}) == 1
     painted = [*PALETTE_ORDER, *(method for method in methods if method not in PALETTE_ORDER)]
     for method in methods:
         index = painted.index(method)
@@ -82,7 +84,7 @@ def _make_groups(kinds: set[tuple[str, str]]) -> list[Group]:
                     method=method,
                     variant=variant,
                     label=f"{title} ({variant})" if variant else title,
-                    color=index,
+                    color=index + place if is_alone else index,
                     dash=(index + place) % DASHES,
                 )
             )

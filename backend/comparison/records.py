@@ -36,7 +36,7 @@ class Group:
     label: str
     """Its name for a person: the method's title, and the variant if there is one."""
     color: int
-    """Which colour of the palette it has: its method's, everywhere the same."""
+    """Which colour of the palette it has: its method's, everywhere the same, where several methods are compared."""
     dash: int
     """Which dash pattern of the palette it has; variants of a method differ in it."""
 

@@ -64,13 +64,20 @@ def test_a_method_keeps_its_colour_when_others_are_missing():
     assert (group.color, group.variant) == (1, "")
 
 
-def test_variants_of_a_method_share_its_colour_and_differ_in_dashes():
-    runs = [RUN, replace(RUN, id="b", seed=0)]
-    groups = group_runs(runs, {"a": (), "b": (("agent.gamma", "0.9"),)}).groups
+def test_variants_share_their_method_s_colour_beside_others_and_differ_in_dashes():
+    runs = [RUN, replace(RUN, id="b", seed=0), replace(RUN, id="c", method="her-sldr")]
+    groups = group_runs(runs, {"a": (), "b": (("agent.gamma", "0.9"),), "c": ()}).groups
     assert [(group.key, group.label, group.color, group.dash) for group in groups] == [
         ("her", "HER-Sparse", 1, 1),
         ("her|gamma 0.9", "HER-Sparse (gamma 0.9)", 1, 2),
+        ("her-sldr", "HER-Sparse+SLDR", 0, 0),
     ]
+
+
+def test_variants_of_one_method_alone_have_colours_of_their_own():
+    runs = [RUN, replace(RUN, id="b", seed=0)]
+    groups = group_runs(runs, {"a": (), "b": (("agent.gamma", "0.9"),)}).groups
+    assert [(group.key, group.color, group.dash) for group in groups] == [("her", 1, 1), ("her|gamma 0.9", 2, 2)]
 
 
 def test_presets_are_told_apart():
