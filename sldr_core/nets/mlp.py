@@ -65,7 +65,7 @@ class MlpStack(nn.Module):
         for weight, bias in hidden:
             stacked = torch.baddbmm(bias, stacked, weight).relu_()
         with torch.autocast(x.device.type, enabled=False):
-            return torch.baddbmm(last_bias, stacked.float(), last_weight)
+            return torch.baddbmm(last_bias, stacked.to(last_weight.dtype), last_weight)
 
 
 def _uniform(shape: tuple[int, ...], inputs: int, generator: torch.Generator) -> Tensor:
