@@ -69,8 +69,9 @@ def plan_study(
         InvalidConfig: the study, or a setting of one of its runs, cannot work.
     """
     check_spec(spec)
-    check_variants_differ(spec)
     members: Mapping[Place, str] = {} if study_id is None else find_members(conn, study_id)
+    if members:  # their configs are not made below, where all are looked at
+        check_variants_differ(spec)
     configs = make_configs(spec, [place for place in spec.places if place not in members])
     wish = LocomotionWish(spec.locomotion, shelf)
     planned = plan_runs(conn, list(configs.values()), spec.preset, share_all=True, wish=wish)

@@ -98,7 +98,8 @@ function putAt(nested: Nested, path: string, value: SettingValue): void {
   nested[group] = { ...nested[group], [key]: value };
 }
 
-function leaves(nested: Readonly<Record<string, unknown>>): [string, SettingValue][] {
+/** Nested settings as dotted paths and values. */
+export function leaves(nested: Readonly<Record<string, unknown>>): [string, SettingValue][] {
   return Object.entries(nested).flatMap(([group, values]) =>
     Object.entries(Object(values)).map(
       ([key, value]) => [`${group}.${key}`, value as SettingValue] as [string, SettingValue],

@@ -3,10 +3,10 @@ import type { Choices } from '@/client/schema.gen';
 import { ChoiceCards } from '@/components/choice-cards';
 import { LocomotionChoice } from '@/components/locomotion-choice';
 import { MethodHelpButton } from '@/components/method-help-button';
+import { SeedsField } from '@/components/seeds-field';
 import { formatName } from '@/lib/format';
 import type { LaunchSearch } from '../search';
 import type { Chosen } from '../use-launch-form';
-import { SeedsField } from './seeds-field';
 import { TaskPicture } from './task-picture';
 import { TaskSummary } from './task-summary';
 
@@ -80,7 +80,12 @@ export function LaunchChoices({ choices, chosen, problems, onChoose }: Props) {
           onChange={(locomotion) => onChoose({ locomotion })}
         />
       )}
-      <SeedsField seeds={chosen.seeds} problem={problems.seeds} onChange={(seeds) => onChoose({ seeds })} />
+      <SeedsField
+        description="One run per seed: 0, or 0-4, or 1, 3, 7-9"
+        seeds={chosen.seeds}
+        problem={problems.seeds}
+        onChange={(seeds) => onChoose({ seeds })}
+      />
     </>
   );
 }

@@ -4,13 +4,13 @@ import type { Choices, StudyTemplate } from '@/client/schema.gen';
 import { ChoiceCards } from '@/components/choice-cards';
 import { LocomotionChoice } from '@/components/locomotion-choice';
 import { MethodHelpButton } from '@/components/method-help-button';
+import { SeedsField } from '@/components/seeds-field';
 import { useLaunchStudy } from '@/lib/use-launch-study';
 import { type Draft, draftOf, useDraft } from '../use-draft';
 import classes from './builder.module.css';
 import { LaunchPanel } from './launch-panel';
 import { NameChecks } from './name-checks';
 import { PreviewMatrix } from './preview-matrix';
-import { SeedField } from './seed-field';
 import { SettingRows } from './setting-rows';
 import { Templates } from './templates';
 
@@ -68,7 +68,12 @@ export function Builder({ choices, templates, begin }: Props) {
           problem={problems.methods}
           onChange={(methods) => choose({ methods })}
         />
-        <SeedField seeds={draft.seeds} problem={problems.seeds} onChange={(seeds) => choose({ seeds })} />
+        <SeedsField
+          description="0-4, or 1, 3, 7-9. Bands and intervals need three or more."
+          seeds={draft.seeds}
+          problem={problems.seeds}
+          onChange={(seeds) => choose({ seeds })}
+        />
         <ChoiceCards
           legend="Preset"
           width={200}

@@ -8,7 +8,7 @@ import { SettingField } from '@/components/setting-field';
 import { sentence } from '@/lib/api';
 import { choicesQuery } from '@/lib/queries';
 import { parseSeeds } from '@/lib/seeds';
-import { readVariants } from '@/lib/setting-rows';
+import { leaves, readVariants } from '@/lib/setting-rows';
 import { readSettingGroups } from '@/lib/settings';
 import { previewQuery } from '@/lib/study-preview';
 import type { StudyWish } from '@/lib/use-study-action';
@@ -35,7 +35,10 @@ function Form({ study, onClose, onSend }: Omit<Props, 'isOpen'>) {
   const [tasks, setTasks] = useState<string[]>([]);
   const [methods, setMethods] = useState<string[]>([]);
   const groups = useMemo(() => readSettingGroups(choices?.config_schema ?? {}), [choices]);
-  const [varied, setVaried] = useState({ path: variedPath(spec), text: '' });
+  const [varied, setVaried] = useState({
+    path: leaves(spec.variants?.at(-1)?.overrides ?? {})[0]?.[0] ?? '',
+    text: '',
+  });
   const read = readSeeds(seedText);
   const seeds = read.seeds.filter((seed) => !spec.seeds.includes(seed));
   const { variants, problem } = readVariants(groups, varied);
@@ -74,13 +77,7 @@ function Form({ study, onClose, onSend }: Omit<Props, 'isOpen'>) {
           description={`There are ${spec.variants.map(({ name }) => name).join(', ')}. Each value of a setting is one more.`}
         >
           <Stack gap={6} mt={6}>
-            <SettingField
-              label="Setting to vary"
-              groups={groups}
-              row={varied}
-              problem={problem}
-              onChange={(row) => setVaried(row)}
-            />
+            <SettingField label="Setting to vary" groups={groups} row={varied} problem={problem} onChange={setVaried} />
           </Stack>
         </Input.Wrapper>
       )}
@@ -103,13 +100,6 @@ function Form({ study, onClose, onSend }: Omit<Props, 'isOpen'>) {
       </Group>
     </Stack>
   );
-}
-
-/** The setting that the study varies, or the last of those that do. */
-function variedPath(spec: StudyDetail['spec']): string {
-  const [name, settings] = Object.entries(spec.variants?.at(-1)?.overrides ?? {})[0] ?? [];
-  const key = Object.keys(Object(settings))[0];
-  return name && key ? `${name}.${key}` : '';
 }
 
 function readSeeds(text: string): { seeds: number[]; problem?: string } {

@@ -1,17 +1,19 @@
-/** Which seeds to train, one run each: typed, or one of the usual choices. */
+/** Which seeds to train: typed, or one of the usual choices. */
 import { Chip, Group, TextInput } from '@mantine/core';
 import { useTyped } from '@/lib/use-typed';
-import classes from './launch.module.css';
+import classes from './seeds-field.module.css';
 
 const SEED_SHORTCUTS = ['0', '0-2', '0-4', '0-9'];
 
 interface Props {
+  /** What to write, for this form. */
+  description: string;
   seeds: string;
   problem: string | undefined;
   onChange: (seeds: string) => void;
 }
 
-export function SeedsField({ seeds, problem, onChange }: Props) {
+export function SeedsField({ description, seeds, problem, onChange }: Props) {
   const { typed, type, send } = useTyped(seeds, onChange);
   const choose = (next: string): void => {
     type(next);
@@ -21,8 +23,8 @@ export function SeedsField({ seeds, problem, onChange }: Props) {
     <div className={classes.seeds}>
       <TextInput
         label="Seeds"
-        description="One run per seed: 0, or 0-4, or 1, 3, 7-9"
-        w={280}
+        description={description}
+        w={300}
         value={typed}
         error={problem}
         onChange={(event) => choose(event.currentTarget.value)}
