@@ -2184,7 +2184,7 @@ export interface components {
         Group: {
             /**
              * Color
-             * @description Which colour of the palette it has: its method's, everywhere the same.
+             * @description Which colour of the palette it has: its method's, everywhere the same, where several methods are compared.
              */
             color: number;
             /**
