@@ -15,8 +15,11 @@ from sldr_core.config import TaskSpec
 from sldr_core.demonstrations.placing import joint_pose
 from sldr_core.envs import Envs, Start
 
-SEED_OFFSET = 2**33
-"""Demonstrations draw from generators that no training, test or evaluation uses."""
+SEED_OFFSET = 2**65
+"""Demonstrations draw from generators that no training, test or evaluation uses (see `EVALUATION_SEED_OFFSET`)."""
+
+ACTING = 1
+"""Third word of generators that robots draw from while they move; zeros at the end would make no other generator."""
 
 
 @dataclass(frozen=True)
@@ -86,7 +89,7 @@ class StackStarts:
             stack = self._stacks.draw_starts([_generator(seed, number)])
             qpos[row, first] = stack.qpos[0, joint_pose(scene, part)]
             goal[row] = stack.goal[0].reshape(self.group, -1)[part]
-        rngs = tuple(np.random.default_rng((seed + SEED_OFFSET, index, 0)) for index in indices)
+        rngs = tuple(np.random.default_rng((seed + SEED_OFFSET, index, ACTING)) for index in indices)
         return Drawn(Start(qpos, np.repeat(alone.qvel, len(numbers), axis=0), goal), rngs)
 
 

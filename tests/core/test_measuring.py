@@ -9,8 +9,10 @@ import pytest
 from small_training import collected_parts, tiny_config
 
 from sldr_core.config import ExplorationConfig
+from sldr_core.demonstrations.starts import SEED_OFFSET
 from sldr_core.envs import Envs, Observation, make_envs
-from sldr_core.training.build import Parts
+from sldr_core.training.build import TEST_SEED_OFFSET, Parts
+from sldr_core.training.evaluation import EVALUATION_SEED_OFFSET
 from sldr_core.training.rollout import Collected, Exploration, collect_episodes, numpy_policy
 from sldr_core.training.testing import run_test, wilson_interval
 
@@ -148,6 +150,19 @@ def test_test_episodes_change_neither_normaliser_nor_memory_nor_training_scenes(
 
 def test_tests_and_training_draw_from_different_generators(parts: Parts) -> None:
     assert starts_of(parts.envs).isdisjoint(starts_of(parts.test_envs))
+
+
+def test_no_two_purposes_share_a_generator() -> None:
+    offsets = [0, TEST_SEED_OFFSET, EVALUATION_SEED_OFFSET, SEED_OFFSET]
+    seeds = [*range(20), 2**31 - 1]
+    drawn = [
+        np.random.default_rng((seed + offset, index)).integers(2**63)
+        for offset in offsets
+        for seed in seeds
+        for index in range(20)
+    ]
+
+    assert len(set(drawn)) == len(drawn)
 
 
 def starts_of(envs: Envs) -> set[tuple[float, ...]]:
