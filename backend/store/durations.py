@@ -1,4 +1,4 @@
-"""How long runs take, measured on those that have succeeded."""
+"""How long runs take, measured on those that have succeeded here."""
 
 from __future__ import annotations
 
@@ -35,10 +35,10 @@ class Durations:
 
 
 def measure_durations(conn: Connection) -> Durations:
-    """Measure the newest succeeded runs: the time that their attempts took, whatever they waited between them."""
+    """Measure the newest runs that have succeeded here: the time of their attempts, without the waits between."""
     newest = (
         select(runs.c.id, runs.c.task, runs.c.phase, runs.c.method, runs.c.preset)
-        .where(runs.c.state == RunState.SUCCEEDED)
+        .where(runs.c.state == RunState.SUCCEEDED, runs.c.origin.is_(None))
         .order_by(runs.c.number.desc())
         .limit(MEASURED_AT_MOST)
         .subquery()

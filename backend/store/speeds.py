@@ -1,4 +1,4 @@
-"""How fast runs train, measured on those that have succeeded, and what that says of runs that are only planned."""
+"""How fast runs train, measured on those that have succeeded here, and what that says of runs that are only planned."""
 
 from __future__ import annotations
 
@@ -56,10 +56,10 @@ class Speeds:
 
 
 def measure_speeds(conn: Connection) -> Speeds:
-    """Measure the newest succeeded runs."""
+    """Measure the newest runs that have succeeded here."""
     newest = (
         select(runs.c.id, runs.c.task, runs.c.phase, runs.c.method, runs.c.preset, runs.c.settings_hash)
-        .where(runs.c.state == RunState.SUCCEEDED)
+        .where(runs.c.state == RunState.SUCCEEDED, runs.c.origin.is_(None))
         .order_by(runs.c.number.desc())
         .limit(MEASURED_AT_MOST)
     )

@@ -17,8 +17,9 @@ from backend.store.order import set_priority
 from backend.store.outcomes import Failed, Succeeded
 from backend.store.progress import Progress
 from backend.store.queue import claim, finish
+from backend.store.speeds import Speeds, measure_speeds
 from backend.store.states import RunState
-from backend.store.tables import attempts, workers
+from backend.store.tables import attempts, runs, workers
 from backend.store.workers import Machine, register_worker, set_draining
 
 START = datetime(2026, 1, 1, tzinfo=UTC)
@@ -33,6 +34,12 @@ def measured_run(db: Database, seconds: float, **changes) -> None:
     with db.write() as conn:
         this = attempts.c.run_id == claimed.run_id
         conn.execute(update(attempts).where(this).values(started_at=START, ended_at=START + timedelta(seconds=seconds)))
+
+
+def from_elsewhere(db: Database) -> None:
+    """Let all runs that are there have come in a study file."""
+    with db.write() as conn:
+        conn.execute(update(runs).values(origin="0" * 64))
 
 
 def in_minutes(entries: list[QueueEntry]) -> list[tuple[float | None, float | None]]:
@@ -93,6 +100,25 @@ def test_a_run_unlike_all_others_is_expected_to_take_as_long_as_those_of_its_pre
     register_worker(db, "here", 1, slots=1)
 
     assert in_minutes(list_queue(db)) == [(0.0, 10.0)]
+
+
+def test_runs_of_another_installation_say_nothing_of_the_time_here(db: Database) -> None:
+    measured_run(db, 600.0)
+    from_elsewhere(db)
+    launch(db, order(seeds=(1,)))
+    register_worker(db, "here", 1, slots=1)
+
+    (entry,) = list_queue(db)
+
+    assert entry.ends_at is None
+
+
+def test_runs_of_another_installation_say_nothing_of_what_a_study_will_cost(db: Database) -> None:
+    measured_run(db, 600.0)
+    from_elsewhere(db)
+
+    with db.read() as conn:
+        assert measure_speeds(conn) == Speeds()
 
 
 def test_no_time_is_told_that_nobody_can_know(db: Database) -> None:
