@@ -38,9 +38,15 @@ def resamples_of(n: int) -> Resamples:
     if math.comb(2 * n - 1, n) <= RESAMPLES:
         return _every_resample(n)
     members = np.random.default_rng([BOOTSTRAP_SEED, n]).integers(n, size=(RESAMPLES, n))
-    copies = (members[:, :, None] == np.arange(n)).sum(axis=1)
-    different, counts = np.unique(copies, axis=0, return_counts=True)
+    different, counts = np.unique(count_copies(members, n), axis=0, return_counts=True)
     return Resamples(different.astype(np.float64), counts / RESAMPLES)
+
+
+def count_copies(members: NDArray[np.int64], n: int) -> NDArray[np.int64]:
+    """Return how often each of `n` seeds is in each draw `[R, N]`, of which seeds each draw holds `[R, N]`."""
+    # Every draw counts in a row of its own, so that no array of R x N x N is made.
+    rows = np.arange(len(members))[:, None]
+    return np.bincount((members + n * rows).ravel(), minlength=n * len(members)).reshape(len(members), n)
 
 
 def _every_resample(n: int) -> Resamples:

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from backend.statistics.bands import interquartile_mean
-from backend.statistics.resampling import BOOTSTRAP_SEED, RESAMPLES
+from backend.statistics.resampling import BOOTSTRAP_SEED, RESAMPLES, count_copies
 
 Floats = NDArray[np.float64]
 
@@ -83,8 +83,7 @@ def _members(n: int, task: int, side: int) -> NDArray[np.int64]:
 @lru_cache(maxsize=256)
 def _weights(n: int, task: int, side: int) -> Floats:
     """Return the share of each run in each draw `[R, N_m]`."""
-    counts = (_members(n, task, side)[:, :, None] == np.arange(n)).sum(axis=1)
-    return counts / n
+    return count_copies(_members(n, task, side), n) / n
 
 
 def _estimate(value: Floats, replicates: Floats, level: float) -> Estimate:
