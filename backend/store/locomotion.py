@@ -49,7 +49,7 @@ def find_sources(
     """Return where each locomotion model comes from that a training takes its reward from; often there is none.
 
     Raises:
-        InvalidConfig: a named run cannot serve, or none of those named is of a task that is needed.
+        InvalidConfig: a named run cannot serve, or of those named none, or more than one, is of a task that is needed.
         BadFile: the index of the zoo cannot be read.
     """
     wanted = [make_locomotion_config(config, preset, task) for task in locomotion_tasks(config)]
@@ -67,7 +67,9 @@ def find_sources(
 
 def _named_runs(conn: Connection, choice: str) -> Sequence[AnyRow]:
     ids = [word.strip() for word in choice.split(",") if word.strip()]
-    rows = conn.execute(select(runs).where(runs.c.id.in_(ids), runs.c.deleted_at.is_(None))).all()
+    rows = conn.execute(
+        select(runs).where(runs.c.id.in_(ids), runs.c.deleted_at.is_(None)).order_by(runs.c.number)
+    ).all()
     unknown = sorted(set(ids) - {row.id for row in rows})
     if unknown or not ids:
         raise InvalidConfig(
@@ -84,7 +86,10 @@ def _named_runs(conn: Connection, choice: str) -> Sequence[AnyRow]:
 
 
 def _named_source(named: Sequence[AnyRow], needed: TrainConfig) -> LocomotionSource:
-    for row in named:
-        if row.task == needed.task:
-            return LocomotionSource(config_from_dict(row.config), run_id=row.id)
-    raise InvalidConfig({SETTING: f"a run of {needed.task} is needed too; name one, or choose {ZOO} or {TRAIN}."})
+    fitting = [row for row in named if row.task == needed.task]
+    if not fitting:
+        raise InvalidConfig({SETTING: f"a run of {needed.task} is needed too; name one, or choose {ZOO} or {TRAIN}."})
+    if len(fitting) > 1:
+        ids = " and ".join(row.id for row in fitting[:2])
+        raise InvalidConfig({SETTING: f"runs {ids} are both of {needed.task}; name one of them."})
+    return LocomotionSource(config_from_dict(fitting[0].config), run_id=fitting[0].id)

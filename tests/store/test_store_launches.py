@@ -109,6 +109,15 @@ def test_what_an_earlier_version_left_marked_is_shared_too(db: Database) -> None
     assert launch(db, sldr())[0] == locomotion
 
 
+@pytest.mark.parametrize("places", [(0, 1), (1, 0)])
+def test_two_named_locomotion_runs_of_one_task_are_refused(db: Database, places: tuple[int, int]) -> None:
+    ids = [launch(db, order(phase="locomotion", seeds=(seed,)))[0] for seed in (0, 1)]
+    first, second = (ids[place] for place in places)
+
+    with pytest.raises(InvalidConfig, match=f"{ids[0]} and {ids[1]} are both of FetchPush; name one of them"):
+        launch(db, replace(sldr(), locomotion=f"{first},{second}"))
+
+
 def test_a_run_starts_when_the_gate_is_met(db: Database) -> None:
     locomotion, manipulation = launch(db, sldr())
     finish(db, claim_next(db), Succeeded(0.95))
