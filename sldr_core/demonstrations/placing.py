@@ -89,7 +89,7 @@ class Placing:
         blocks = goal.reshape(-1, 3)
         moved = blocks - blocks[0] + place
         # A chain's first block may be its highest: what would sink into the table is lifted.
-        moved[:, 2] += max(0.0, float(goal[0, 2::3].min() - moved[:, 2].min())) if len(blocks) > 1 else 0.0
+        moved[:, 2] += max(0.0, float(self.rest[2] - moved[:, 2].min())) if len(blocks) > 1 else 0.0
         return replace(start, goal=moved.reshape(1, -1))
 
     def put_shape(self, start: Start, shape: int) -> Start:

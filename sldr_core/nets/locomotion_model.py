@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -55,6 +56,14 @@ class LocomotionNets(nn.Module):
     def value(self, features: Tensor, action: Tensor) -> Tensor:
         """Return Q_nu(z, u, g), `[B]`."""
         return self.critic(torch.cat([features, action], dim=-1))[0, :, 0]
+
+    def digest(self) -> str:
+        """Return what tells these weights from any others."""
+        found = hashlib.sha256()
+        for name, values in sorted(self.state_dict().items()):
+            found.update(name.encode())
+            found.update(values.detach().cpu().numpy().tobytes())
+        return found.hexdigest()
 
     def inferred_action(self, state: Tensor, next_state: Tensor) -> Tensor:
         """Return w = I(z, z'), the action that would have made the object move so, `[..., A]`."""

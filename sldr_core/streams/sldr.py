@@ -9,11 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager
+from typing import Any
 
 import torch
 from torch import Tensor
 
 from sldr_core.config import SldrConfig, SldrReward
+from sldr_core.errors import BadFile
 from sldr_core.nets.descent import slices_of
 from sldr_core.nets.locomotion_model import LocomotionModel, LocomotionNets
 from sldr_core.nets.precision import learner_precision
@@ -72,6 +74,7 @@ class SldrStream(FixedStream):
         self.stored_sizes: Mapping[str, int] = {self._stored: model.config.task_spec.object_action_size}
         self._reward = REWARDS[config.reward]
         self._nets = model.nets.to(device)
+        self._trained_in = model.config.task
         self._view = view
         self._device = device
         self._autocast = autocast
@@ -100,6 +103,22 @@ class SldrStream(FixedStream):
         with self._precision():
             wanted = self._nets.action(self._features(batch)).float()
         return ObjectActions(self._part, wanted, batch.extra[self._stored])
+
+    def state_dict(self) -> dict[str, Any]:
+        """Return what tells the model from any other: its w are stored, and critics have learnt from its rewards."""
+        return {"model": self._nets.digest()}
+
+    def load_state_dict(self, state: dict[str, Any]) -> None:
+        """Go on with the same model; checkpoints of earlier versions do not say which it was.
+
+        Raises:
+            BadFile: it is another one.
+        """
+        if state.get("model", self._nets.digest()) != self._nets.digest():
+            raise BadFile(
+                f"The run in this directory began with another locomotion model of {self._trained_in}; give that one, "
+                "or use another directory."
+            )
 
     def _features(self, batch: Transitions) -> Tensor:
         return self._nets.features(self._view.object_state(batch.obs), self._view.part_goal(batch.goal))

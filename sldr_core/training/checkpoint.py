@@ -30,12 +30,12 @@ KIND = "checkpoint"
 PARTS = frozenset(
     (
         *("agent", "inverse", "streams", "envs", "test_envs"),
-        *("sampler_rng", "exploration_rng", "counters", "replay_written"),
+        *("sampler_rng", "exploration_rng", "counters", "replay_written", "replay_bytes"),
     )
 )
 """What a checkpoint cannot do without."""
 
-COUNTED_LATER = {"best_epoch": 0}
+COUNTED_LATER = {"best_epoch": 0, "warmup_cycles": 0}
 """Counters that checkpoints of earlier versions lack."""
 
 START_ANEW = "remove every checkpoint of this directory to start the run anew"
@@ -47,6 +47,8 @@ log = logging.getLogger(__name__)
 class Counters:
     """How far a training is; the only state of the loop itself."""
 
+    warmup_cycles: int = 0
+    """Cycles of random actions collected before the first update."""
     cycle: int = 0
     env_steps: int = 0
     episodes: int = 0
@@ -62,6 +64,11 @@ class Counters:
     tests_held: int = 0
     """Newest tests in a row that reached `loop.stop_at_success`."""
 
+    def are_final(self, config: TrainConfig) -> bool:
+        """Tell whether a training of `config` has come to its end."""
+        wanted = config.loop.stop_after_tests
+        return 0 < wanted <= self.tests_held or self.cycle >= config.total_cycles
+
 
 class ForeignCheckpoint(BadFile):
     """Report a checkpoint of another run than the one that is to go on."""
@@ -73,6 +80,7 @@ class Kept:
 
     path: Path
     content: dict[str, Any]
+    counters: Counters
 
 
 def write_checkpoint(path: Path, parts: Parts, counters: Counters) -> None:
@@ -119,7 +127,7 @@ def read_newest(directory: Path, config: TrainConfig) -> Kept | None:
     newest, previous = directory / CHECKPOINT_FILE, directory / PREVIOUS_CHECKPOINT_FILE
     for path in (path for path in (newest, previous) if path.exists()):
         try:
-            kept = Kept(path, read_checkpoint(path, config))
+            kept = read_checkpoint(path, config)
         except ForeignCheckpoint:
             raise
         except BadFile as err:
@@ -133,12 +141,12 @@ def read_newest(directory: Path, config: TrainConfig) -> Kept | None:
     return None
 
 
-def read_checkpoint(path: Path, config: TrainConfig) -> dict[str, Any]:
+def read_checkpoint(path: Path, config: TrainConfig) -> Kept:
     """Read a checkpoint that fits a config; nothing in its directory is touched.
 
     Raises:
         ForeignCheckpoint: it was made by another config.
-        BadFile: the file is corrupt, lacks a part, or has lost its replay file.
+        BadFile: the file is corrupt, lacks a part, or has lost its replay file before its training was over.
     """
     content = load_tensors(path, KIND)
     if not _is_of(content, config):
@@ -148,13 +156,16 @@ def read_checkpoint(path: Path, config: TrainConfig) -> dict[str, Any]:
     missing = sorted(PARTS - content.keys())
     if missing:
         raise BadFile(f"{path} is no whole checkpoint: it lacks {', '.join(missing)}; {START_ANEW}.")
+    kept = Kept(path, content, _read_counters(path, content["counters"]))
     replay, size = path.with_name(REPLAY_FILE), content["replay_bytes"]
-    if not isinstance(size, int) or not replay.is_file() or replay.stat().st_size != size:
+    whole = isinstance(size, int) and replay.is_file() and replay.stat().st_size == size
+    # Nobody needs the replay file of a training that is over, and we tell people to remove it.
+    if not whole and not kept.counters.are_final(config):
         raise BadFile(f"{path} needs {replay}, which is gone or was cut short; {START_ANEW}.")
-    return content
+    return kept
 
 
-def restore_training(kept: Kept, parts: Parts) -> Counters:
+def restore_training(kept: Kept, parts: Parts) -> None:
     """Bring a training to the state of a checkpoint.
 
     Raises:
@@ -172,10 +183,31 @@ def restore_training(kept: Kept, parts: Parts) -> Counters:
         _unpack_rng(parts.sampler.rng, content["sampler_rng"])
         _unpack_rng(parts.exploration.rng, content["exploration_rng"])
         parts.buffer.written = int(content["replay_written"])
-        counters = {**COUNTED_LATER, **content["counters"]}
-        return Counters(**{field.name: counters[field.name] for field in fields(Counters)})
     except UNFIT as err:
-        raise BadFile(f"{kept.path} is no whole checkpoint ({one_line(err)}); {START_ANEW}.") from err
+        raise _not_whole(kept.path, err) from err
+
+
+def _read_counters(path: Path, found: Any) -> Counters:
+    try:
+        values = {**COUNTED_LATER, **found}
+        return Counters(**{field.name: _number(values[field.name]) for field in fields(Counters)})
+    except UNFIT as err:
+        raise _not_whole(path, err) from err
+
+
+def _number(value: Any) -> Any:
+    """Return a counter as it is.
+
+    Raises:
+        TypeError: it is no number.
+    """
+    if not isinstance(value, int | float):
+        raise TypeError(f"a counter is {value!r}")
+    return value
+
+
+def _not_whole(path: Path, err: Exception) -> BadFile:
+    return BadFile(f"{path} is no whole checkpoint ({one_line(err)}); {START_ANEW}.")
 
 
 def _fall_back(kept: Kept, newest: Path, problem: BadFile | None) -> None:
@@ -184,7 +216,7 @@ def _fall_back(kept: Kept, newest: Path, problem: BadFile | None) -> None:
     if newest.exists():
         # Under its own name it would be taken for the previous checkpoint when the next one is written.
         newest.rename(newest.with_name(DAMAGED_CHECKPOINT_FILE))
-    log.warning("%s Going on from %s, after cycle %d.", reason, kept.path, kept.content["counters"]["cycle"])
+    log.warning("%s Going on from %s, after cycle %d.", reason, kept.path, kept.counters.cycle)
 
 
 def _is_of(content: dict[str, Any], config: TrainConfig) -> bool:

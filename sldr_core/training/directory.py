@@ -17,19 +17,24 @@ from sldr_core.episodes import KIND as EPISODES_KIND
 from sldr_core.episodes import RecordedTest, episodes_file, remove_episodes, write_episodes
 from sldr_core.errors import DirectoryInUse
 from sldr_core.records import Step
-from sldr_core.training.files import METRICS_FILE
+from sldr_core.training.files import CHECKPOINT_FILE, METRICS_FILE, PREVIOUS_CHECKPOINT_FILE, is_product
 from sldr_core.training.recorder import StopReason
 
 LOCK_FILE = ".training.lock"
 
 
 class DirectoryRecorder:
-    """Keep everything below one directory. After a resume, lines of cycles that are run again are replaced."""
+    """Keep everything below one directory.
+
+    After a resume, lines of cycles that are run again are replaced. A training that goes on from nothing begins with
+    removing what an earlier one has left there, or the two would be taken for one.
+    """
 
     def __init__(self, directory: Path) -> None:
         directory.mkdir(parents=True, exist_ok=True)
         self._directory = directory
         self._stop: StopReason | None = None
+        self._begun = False
         self._logged = False
 
     @property
@@ -43,6 +48,7 @@ class DirectoryRecorder:
         Raises:
             DiskTooFull: there is no room for it.
         """
+        self._begin()
         path = self._directory / METRICS_FILE
         if not self._logged:
             _drop_from(path, step.cycle)
@@ -56,6 +62,7 @@ class DirectoryRecorder:
         Raises:
             DiskTooFull: there is no room for it.
         """
+        self._begin()
         # A checkpoint must never be on the disk before the lines that it says are logged.
         sync(self._directory / METRICS_FILE)
         return write_atomically(self._directory / name, write)
@@ -77,6 +84,17 @@ class DirectoryRecorder:
     def request_stop(self, reason: StopReason) -> None:
         """Ask the training to end."""
         self._stop = reason
+
+    def _begin(self) -> None:
+        """Before the first line or file: remove what a training has left that nothing goes on from."""
+        if self._begun:
+            return
+        self._begun = True
+        checkpoints = (CHECKPOINT_FILE, PREVIOUS_CHECKPOINT_FILE)
+        if not any((self._directory / name).exists() for name in checkpoints):
+            for path in self._directory.iterdir():
+                if is_product(path.name):
+                    path.unlink()
 
 
 @contextmanager

@@ -13,8 +13,8 @@ from sldr_core.training.testing import run_test, wilson_interval
 EVALUATION_SEED_OFFSET = 2**64
 """Evaluations draw from generators that no training and no test of a training uses.
 
-A generator of (seed, number) is made of the 32-bit words of both, one after the other: with an offset of 2**32 simulation 0
-of an evaluation would be simulation 1 of the training.
+A generator of (seed, number) is made of the 32-bit words of both, one after the other: with an offset of 2**32
+simulation 0 of an evaluation would be simulation 1 of the training.
 """
 
 MAX_SIMULATIONS = 38

@@ -9,7 +9,7 @@ import numpy as np
 import torch
 
 from sldr_core.config import TrainConfig
-from sldr_core.episodes import MOST_FILES, episodes_file
+from sldr_core.episodes import MOST_FILES, episodes_file, epoch_of
 
 METRICS_FILE = "metrics.jsonl"
 REPLAY_FILE = "replay.bin"
@@ -40,6 +40,12 @@ def kept_policy_file(epoch: int) -> str:
 def keeps_policy(epoch: int, epochs: int) -> bool:
     """Tell whether the policy of an epoch, from 1, is kept in a training of so many: the first, then evenly."""
     return epoch == 1 or epoch % -(-epochs // KEPT_POLICIES) == 0
+
+
+def is_product(name: str) -> bool:
+    """Tell whether a file is a policy or a record of a training, and nothing that one goes on or takes rewards from."""
+    weights = name.startswith(("policy-", "dump-")) and name.endswith(".pt")
+    return weights or name == METRICS_FILE or epoch_of(name) is not None
 
 
 def planned_sizes(

@@ -74,12 +74,16 @@ def train(
     with alone_in(recorder.directory):
         # Read before anything is built: building would replace the replay file of another config.
         kept = read_newest(recorder.directory, config)
-        parts = build_training(config, recorder.directory, locomotion_models, gate_waived)
-        counters = restore_training(kept, parts) if kept else Counters()
-        try:
-            stopped = _Loop(parts, counters, recorder).run()
-        except _Cancelled:
-            stopped = "cancel"
+        counters = kept.counters if kept else Counters()
+        stopped: StopReason | None = None
+        if not counters.are_final(config):
+            parts = build_training(config, recorder.directory, locomotion_models, gate_waived)
+            if kept:
+                restore_training(kept, parts)
+            try:
+                stopped = _Loop(parts, counters, recorder).run()
+            except _Cancelled:
+                stopped = "cancel"
     return TrainResult(
         finished=stopped is None,
         stopped=stopped,
@@ -112,8 +116,12 @@ class _Loop:
             raise keep_evidence(err, self._cycle, self._parts.config, self._recorder) from err
 
     def _run(self) -> StopReason | None:
-        if self._counters.cycle == 0:
+        while self._counters.cycle == 0 and self._counters.warmup_cycles < self._loop.warmup_cycles:
             self._warm_up()
+            stop = self._recorder.stop_requested()
+            if stop is not None:
+                self._save_checkpoint()
+                return stop
         while not self._is_finished():
             self._run_cycle()
             stop = self._recorder.stop_requested()
@@ -124,9 +132,9 @@ class _Loop:
         return None
 
     def _warm_up(self) -> None:
-        for _ in range(self._loop.warmup_cycles):
-            collected, _ = collect_random(self._parts, self._check)
-            self._count(collected)
+        collected, _ = collect_random(self._parts, self._check)
+        self._count(collected)
+        self._counters.warmup_cycles += 1
 
     def _run_cycle(self) -> None:
         counters = self._counters
@@ -180,9 +188,7 @@ class _Loop:
             self._recorder.record_episodes(test, kept_epochs(step.epoch, self._counters.best_epoch))
 
     def _is_finished(self) -> bool:
-        wanted = self._loop.stop_after_tests
-        held = wanted > 0 and self._counters.tests_held >= wanted
-        return held or self._counters.cycle >= self._parts.config.total_cycles
+        return self._counters.are_final(self._parts.config)
 
     def _progress(self) -> dict[str, float]:
         warmup = self._loop.warmup_cycles

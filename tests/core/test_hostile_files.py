@@ -19,7 +19,7 @@ from sldr_core.episodes import read_episodes, write_episodes
 from sldr_core.errors import BadFile
 from sldr_core.nets.locomotion_model import load_locomotion_model
 from sldr_core.training.build import Parts
-from sldr_core.training.checkpoint import Kept, read_checkpoint, restore_training
+from sldr_core.training.checkpoint import read_checkpoint, restore_training
 from sldr_core.training.policy import load_policy
 
 TRIALS = 40
@@ -57,8 +57,9 @@ class Shelf:
     def read(self, name: str, path: Path) -> object:
         """Read a file as the product does; `name` is the good one that it comes from."""
         if name == "checkpoint.pt":
-            kept = Kept(path, read_checkpoint(path, self.parts.config))
-            return restore_training(kept, self.parts)
+            kept = read_checkpoint(path, self.parts.config)
+            restore_training(kept, self.parts)
+            return kept
         readers: dict[str, Callable[[Path], object]] = {
             "model.pt": load_locomotion_model,
             "policy-newest.pt": load_policy,

@@ -6,18 +6,27 @@ from pathlib import Path
 
 import pytest
 import torch
-from small_training import TINY, contents_of, run, save_untrained_model, tiny_config
+from small_training import TINY, StoppingRecorder, contents_of, run, save_untrained_model, tiny_config
 
 from sldr_core.errors import BadFile, DiskTooFull, InvalidConfig, LocomotionMissing, TrainingDiverged
 from sldr_core.nets.transitions import Transitions
 from sldr_core.presets import make_config
 from sldr_core.streams import TaskStream
+from sldr_core.training import train
+from sldr_core.training.checkpoint import PARTS
 
 
 @pytest.fixture
 def trained(tmp_path: Path) -> Path:
     directory = tmp_path / "run"
     run(tiny_config(), directory)
+    return directory
+
+
+@pytest.fixture
+def stopped(tmp_path: Path) -> Path:
+    directory = tmp_path / "run"
+    train(tiny_config(), StoppingRecorder(directory, 1, "pause"))
     return directory
 
 
@@ -40,18 +49,19 @@ def test_a_checkpoint_cut_short_is_refused(trained: Path, length: int) -> None:
         run(tiny_config(), trained)
 
 
-def test_a_checkpoint_that_lacks_a_part_is_refused(trained: Path) -> None:
-    content = torch.load(trained / "checkpoint.pt", weights_only=True)
-    del content["envs"]
-    torch.save(content, trained / "checkpoint.pt")
+@pytest.mark.parametrize("part", sorted(PARTS))
+def test_a_checkpoint_that_lacks_a_part_is_refused(stopped: Path, part: str) -> None:
+    content = torch.load(stopped / "checkpoint.pt", weights_only=True)
+    del content[part]
+    torch.save(content, stopped / "checkpoint.pt")
 
-    with pytest.raises(BadFile, match=r"checkpoint\.pt is no whole checkpoint: it lacks envs; remove"):
-        run(tiny_config(), trained)
+    with pytest.raises(BadFile, match=rf"checkpoint\.pt is no whole checkpoint: it lacks {part}; remove"):
+        run(tiny_config(), stopped)
 
 
 @pytest.mark.parametrize("length", [None, 1000])
-def test_a_checkpoint_without_its_replay_file_is_refused_again_and_again(trained: Path, length: int | None) -> None:
-    replay = trained / "replay.bin"
+def test_a_checkpoint_without_its_replay_file_is_refused_again_and_again(stopped: Path, length: int | None) -> None:
+    replay = stopped / "replay.bin"
     kept = replay.read_bytes()[:length]
     replay.unlink()
     if length:
@@ -59,7 +69,44 @@ def test_a_checkpoint_without_its_replay_file_is_refused_again_and_again(trained
 
     for _ in range(2):
         with pytest.raises(BadFile, match=r"needs .*replay\.bin, which is gone or was cut short"):
-            run(tiny_config(), trained)
+            run(tiny_config(), stopped)
+
+
+def test_a_finished_training_needs_its_replay_file_no_longer(trained: Path) -> None:
+    (trained / "replay.bin").unlink()
+    before = contents_of(trained)
+
+    again = run(tiny_config(), trained)
+
+    assert again.finished
+    assert again.test_success_rate == torch.load(trained / "checkpoint.pt")["counters"]["test_success_rate"]
+    assert contents_of(trained) == before
+
+
+def test_a_run_begun_anew_leaves_nothing_of_the_one_before(trained: Path) -> None:
+    (trained / "notes.txt").write_text("kept")
+    for checkpoint in trained.glob("checkpoint*.pt"):
+        checkpoint.unlink()
+
+    run(tiny_config(epochs=1, seed=1), trained)
+
+    policies = [path.name for path in trained.glob("policy-epoch-*.pt")]
+    assert policies == ["policy-epoch-0001.pt"]
+    assert [path.name for path in trained.glob("episodes-epoch-*")] == ["episodes-epoch-0001.npz"]
+    assert (trained / "notes.txt").read_text() == "kept"
+
+
+def test_a_run_does_not_go_on_with_another_locomotion_model(tmp_path: Path) -> None:
+    config = tiny_config("manipulation", "her-sldr")
+    first = save_untrained_model(tmp_path / "first.pt")
+    train(config, StoppingRecorder(tmp_path / "run", 1, "pause"), (first,))
+    before = contents_of(tmp_path / "run")
+
+    with pytest.raises(BadFile, match="began with another locomotion model of ShortPush"):
+        run(config, tmp_path / "run", (save_untrained_model(tmp_path / "other.pt", spoil=0.5),))
+
+    assert contents_of(tmp_path / "run").keys() == before.keys()
+    assert run(config, tmp_path / "run", (first,)).finished
 
 
 def test_a_method_that_needs_a_locomotion_model_says_how_to_get_one(tmp_path: Path) -> None:

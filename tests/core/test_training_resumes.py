@@ -63,6 +63,26 @@ def test_a_stopped_manipulation_goes_on_to_the_same_bits(method: str, tmp_path: 
     assert_same_training(tmp_path / "parts", tmp_path / "whole")
 
 
+class HurriedRecorder(DirectoryRecorder):
+    """Be asked to pause at every moment."""
+
+    def stop_requested(self) -> StopReason | None:
+        return "pause"
+
+
+@pytest.mark.parametrize("collecting", ["before", "beside"])
+def test_a_training_paused_in_its_warm_up_goes_on_to_the_same_bits(collecting: str, tmp_path: Path) -> None:
+    config = tiny_config(warmup_cycles=3, collecting=collecting)
+    run(config, tmp_path / "whole")
+
+    attempts = 1
+    while not train(config, HurriedRecorder(tmp_path / "parts")).finished:
+        attempts += 1
+
+    assert attempts == config.loop.warmup_cycles + config.total_cycles
+    assert_same_training(tmp_path / "parts", tmp_path / "whole")
+
+
 def test_seconds_of_training_add_up_over_attempts(tmp_path: Path) -> None:
     config = tiny_config()
     train(config, StoppingRecorder(tmp_path, 2, "shutdown"))

@@ -43,6 +43,14 @@ def test_a_chain_s_goal_moves_as_a_whole_and_is_lifted_out_of_the_table(inspect)
     assert goal[0, :2].tolist() == [1.2, 0.7]
 
 
+def test_a_chain_s_goal_that_was_lifted_can_be_put_down_again(inspect):
+    placing, start = open_scene(inspect, "FetchTuple3")
+    lifted = placing.put_goal(start, (1.2, 0.7, 0.9), UPRIGHT)
+    lowered = placing.put_goal(lifted, (1.2, 0.7, 0.0), UPRIGHT)
+    assert lifted.goal[0, 2::3].min() > placing.rest[2] + 0.1
+    assert lowered.goal[0, 2::3].min() == pytest.approx(placing.rest[2], abs=1e-6)
+
+
 def test_what_of_a_pose_is_not_scored_follows_the_object(inspect):
     placing, start = open_scene(inspect, "HandBlockRotate")
     put = placing.put_object(start, placing.rest + 0.02, UPRIGHT)
