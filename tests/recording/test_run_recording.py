@@ -7,6 +7,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 import numpy as np
+import psutil
 import pytest
 from rerun.experimental import RrdReader
 
@@ -26,7 +27,7 @@ from sldr_core.records import Step
 from worker.cli.commands.export import main
 from worker.recording.blueprint import chart_groups
 from worker.recording.log_lines import place_lines
-from worker.recording.run_recording import choose_tests
+from worker.recording.run_recording import choose_tests, record_run
 from worker.recording.scenes import PULL, load_scene, make_scene
 
 STEPS = 3
@@ -104,6 +105,19 @@ def test_the_command_writes_curves_episodes_and_log(
     episode = "/scenes/epoch-0002/0"
     wanted = {"/test/success_rate", "/log", f"{episode}/body/object0", f"{episode}/goal", f"{episode}/path/object0"}
     assert wanted | {f"{episode}/robot", f"{episode}/wanted/object0", f"{episode}/series/reward/task"} <= found
+
+
+def test_a_file_that_is_renewed_leaves_no_threads(
+    db: Database, settings: Settings, held: Claim, tmp_path: Path
+) -> None:
+    process = psutil.Process()
+    record_run(db, settings, held.run_id, tmp_path / "run.rrd")
+    after_one = process.num_threads()
+
+    for _ in range(4):
+        record_run(db, settings, held.run_id, tmp_path / "run.rrd")
+
+    assert process.num_threads() == after_one
 
 
 @pytest.mark.parametrize(

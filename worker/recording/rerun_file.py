@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import rerun as rr
+import rerun_bindings as bindings
 from numpy.typing import NDArray
 
 from sldr_core.disk import write_atomically
@@ -35,16 +36,37 @@ def write_recording(path: Path, recording: Recording) -> None:
 
 
 def _write(recording: Recording, path: Path) -> None:
-    stream = rr.RecordingStream(APPLICATION)
-    stream.save(path, default_blueprint=make_blueprint(recording))
-    stream.send_recording_name(recording.title)
-    for name, column in recording.curves.items():
-        _send_curve(stream, name, recording.steps, column)
-    for scene in recording.episodes:
-        send_episode(stream, scene)
-    _send_log(stream, recording)
-    stream.flush()
-    stream.disconnect()
+    try:
+        _fill(recording, path)
+    finally:
+        # Rerun 0.33 ends a stream's threads only here, once nobody holds the stream; a training writes many files.
+        bindings.flush_and_cleanup_orphaned_recordings()
+
+
+def _fill(recording: Recording, path: Path) -> None:
+    stream, layout = rr.RecordingStream(APPLICATION), _lay_out(recording)
+    try:
+        storage = layout.memory_recording().storage
+        bindings.save(str(path), default_blueprint=storage, recording=stream.to_native())
+        stream.send_recording_name(recording.title)
+        for name, column in recording.curves.items():
+            _send_curve(stream, name, recording.steps, column)
+        for scene in recording.episodes:
+            send_episode(stream, scene)
+        _send_log(stream, recording)
+        stream.flush()
+    finally:
+        layout.disconnect()
+        stream.disconnect()
+
+
+def _lay_out(recording: Recording) -> rr.RecordingStream:
+    """Return the layout as a stream, as `RecordingStream.save` makes it; that one cannot be disconnected."""
+    native = bindings.new_blueprint(APPLICATION, make_default=False, make_thread_default=False, default_enabled=True)
+    layout = rr.RecordingStream._from_native(native)
+    layout.set_time("blueprint", sequence=0)
+    make_blueprint(recording)._log_to_stream(layout)
+    return layout
 
 
 def _send_curve(stream: rr.RecordingStream, name: str, steps: Sequence[Step], column: Sequence[float | None]) -> None:
