@@ -49,7 +49,7 @@ def test_a_study_that_cannot_work_is_refused_in_a_sentence(changes: dict, senten
     assert sentence in str(caught.value)
 
 
-@pytest.mark.parametrize("name", ["", "  ", "a\0b", "\ud800", "x" * 81])
+@pytest.mark.parametrize("name", ["", "  ", "a\0b", "\ud800", "x" * 81, "a\tb", "a\nb"])
 def test_a_name_that_cannot_be_kept_is_refused(name: str) -> None:
     with pytest.raises(InvalidConfig):
         check_name(name)

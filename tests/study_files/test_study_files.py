@@ -150,6 +150,16 @@ def test_a_name_that_is_taken_gets_a_number(db: Database, settings: Settings, ex
     assert get_study(db, second.study_id).study.name == "Two methods (2)"
 
 
+def test_a_study_whose_name_has_several_lines_is_exported(db: Database, settings: Settings, tmp_path: Path) -> None:
+    study_id = trained_study(db, settings)
+    with db.write() as conn:
+        conn.execute(update(studies).where(studies.c.id == study_id).values(name="push\there\nor there"))
+
+    pack_study(db, settings, study_id, tmp_path / "study.zip")
+
+    assert json.loads(members_of(tmp_path / "study.zip")["study.json"])["study"]["name"] == "push here or there"
+
+
 def test_what_was_imported_can_be_exported_again(
     db: Database, settings: Settings, exported: Path, tmp_path: Path
 ) -> None:

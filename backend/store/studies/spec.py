@@ -146,10 +146,17 @@ def check_name(name: str) -> str:
     """Return a name without the space around it.
 
     Raises:
-        InvalidConfig: nothing is left of it, or it is too long.
+        InvalidConfig: nothing is left of it, it is too long, or it is not one line.
     """
     (name,) = _check_names("name", [name])
+    if name != on_one_line(name):
+        raise InvalidConfig({"name": "it holds a tab, a line break or the like; write spaces instead."})
     return name
+
+
+def on_one_line(name: str) -> str:
+    """Return a name with spaces for tabs, line breaks and other characters that control a screen."""
+    return "".join(letter if letter >= " " else " " for letter in name)
 
 
 def check_text(setting: str, text: str, longest: int) -> str:

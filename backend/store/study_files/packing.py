@@ -23,7 +23,7 @@ from backend.store.settings import Settings
 from backend.store.states import RunState
 from backend.store.storage import FileStorage
 from backend.store.studies.launch import find_study
-from backend.store.studies.spec import LONGEST_NOTE
+from backend.store.studies.spec import LONGEST_NOTE, on_one_line
 from backend.store.study_files.chosen_files import EPISODES, EpisodeChoice, choose_files, keeps_episodes, kind_of
 from backend.store.study_files.machines import count_machines, find_machines
 from backend.store.study_files.records import (
@@ -160,8 +160,8 @@ def _succeeded(conn: Connection, ids: Collection[str]) -> Sequence[AnyRow]:
 
 
 def _pack_study(study: AnyRow) -> StudyRecord:
-    # An import of an earlier version may have left a longer note than anybody may write.
-    return StudyRecord(name=study.name, note=study.note[:LONGEST_NOTE], spec=_spec(study.spec))
+    # Earlier versions may have left a longer note, or a name of several lines, than anybody may write.
+    return StudyRecord(name=on_one_line(study.name), note=study.note[:LONGEST_NOTE], spec=_spec(study.spec))
 
 
 def _spec(values: Mapping[str, Any]) -> SpecRecord:
