@@ -66,7 +66,7 @@ NO_POINTS = Points(np.empty(0), {name: np.empty(0) for name in _AXES}, np.empty(
 
 
 def read_points(db: Database, runs: Sequence[ComparedRun], metric: str, after: Mapping[str, int]) -> CurvePage:
-    """Read one metric of many runs.
+    """Read one metric of many runs, each as far as it had come when it was found.
 
     Args:
         metric: its name, `group/name`.
@@ -161,8 +161,10 @@ def _read_firsts(conn: Connection, run_ids: Sequence[str]) -> dict[str, dict[int
 
 def _points_by_run(runs: Sequence[ComparedRun], rows: Sequence[Any], after: Mapping[str, int]) -> dict[str, Points]:
     by_run: dict[str, list[Any]] = {run.id: [] for run in runs}
+    newest = {run.id: run.newest_step_id for run in runs}
     for run_id, step_id, *numbers in rows:
-        if step_id > after.get(run_id, 0):
+        # What a run has logged since the look at it is read next time; whoever asks knows no more than `newest`.
+        if after.get(run_id, 0) < step_id <= newest[run_id]:
             by_run[run_id].append(numbers)
     return {run_id: _points(numbers) for run_id, numbers in by_run.items()}
 

@@ -94,6 +94,20 @@ def test_of_a_run_that_goes_on_only_what_is_new_is_read(db: Database) -> None:
     assert page.points[run.id].value.tolist() == [4.5]
 
 
+def test_what_came_after_the_look_is_left_for_the_next_reading(db: Database) -> None:
+    first, _ = launch(db, order(seeds=(0, 1)))
+    claims = claim_next(db), claim_next(db)
+    log(db, claims[0], 2)
+    [before, _] = found(db)
+    log(db, claims[0], 4)
+    log(db, claims[1], 2)
+    [run, other] = found(db)
+    early = read_points(db, [before, other], SUCCESS, {})
+    late = read_points(db, [run], SUCCESS, {first: before.newest_step_id})
+    assert early.points[first].value.tolist() == [2.5]
+    assert late.points[first].value.tolist() == [4.5]
+
+
 def test_of_a_metric_with_too_many_points_every_kth_cycle_is_read(
     db: Database, monkeypatch: pytest.MonkeyPatch
 ) -> None:
