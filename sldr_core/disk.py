@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import fcntl
 import os
+import re
 import secrets
 import shutil
 from collections.abc import Callable, Iterator, Mapping
@@ -91,6 +92,14 @@ def temporary_beside(path: Path) -> Path:
     return path.with_name(f".{path.name}.{secrets.token_hex(TOKEN_BYTES)}.{os.getpid()}.tmp")
 
 
+def remove_leftovers(directory: Path) -> None:
+    """Remove the temporary files of processes that were killed while they wrote; those of living ones stay."""
+    for path in directory.glob(".*.tmp"):
+        writer = re.fullmatch(r"\..+\.(\d+)\.tmp", path.name)
+        if writer and not _is_another_living(int(writer[1])):
+            path.unlink(missing_ok=True)
+
+
 def sync(path: Path) -> None:
     """Bring a file, or the names in a directory, to the disk, if it is there."""
     if path.exists():
@@ -107,6 +116,16 @@ def hold_lock(path: Path) -> Iterator[None]:
     with path.open("w") as file:
         fcntl.flock(file, fcntl.LOCK_EX)
         yield
+
+
+def _is_another_living(pid: int) -> bool:
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    except PermissionError:
+        pass
+    return pid != os.getpid()
 
 
 def _held(path: Path) -> int:

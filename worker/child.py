@@ -28,6 +28,7 @@ from backend.store.outcomes import Cancelled, Failed, HandedBack, Outcome, Pause
 from backend.store.queue import finish
 from backend.store.settings import Settings, load_settings
 from sldr_core.config import TrainConfig
+from sldr_core.disk import remove_leftovers
 from sldr_core.errors import SldrError
 from worker.claimed_files import bring_claimed_run, send_log
 from worker.locomotion_files import find_locomotion_models
@@ -205,8 +206,7 @@ def _hold_directory(directory: Path) -> Generator[None]:
                 if time.monotonic() > give_up_at:
                     raise DirectoryBusy("A process of an earlier attempt still writes its directory.") from None
                 time.sleep(0.1)
-        for leftover in directory.glob(".*.tmp"):
-            leftover.unlink()
+        remove_leftovers(directory)
         yield
 
 

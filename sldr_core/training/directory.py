@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import fcntl
 import json
-import os
-import re
 from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
 
-from sldr_core.disk import explain_full_disk, sync, write_atomically
+from sldr_core.disk import explain_full_disk, remove_leftovers, sync, write_atomically
 from sldr_core.episodes import KIND as EPISODES_KIND
 from sldr_core.episodes import RecordedTest, episodes_file, remove_episodes, write_episodes
 from sldr_core.errors import DirectoryInUse
@@ -111,26 +109,8 @@ def alone_in(directory: Path) -> Iterator[None]:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError as err:
             raise DirectoryInUse(f"Another process trains in {directory}; wait for it, or use another one.") from err
-        _remove_leftovers(directory)
+        remove_leftovers(directory)
         yield
-
-
-def _remove_leftovers(directory: Path) -> None:
-    """Remove the temporary files of processes that were killed while they wrote; those of living ones stay."""
-    for path in directory.glob(".*.tmp"):
-        writer = re.fullmatch(r"\..+\.(\d+)\.tmp", path.name)
-        if writer and not _is_another_living(int(writer[1])):
-            path.unlink(missing_ok=True)
-
-
-def _is_another_living(pid: int) -> bool:
-    try:
-        os.kill(pid, 0)
-    except ProcessLookupError:
-        return False
-    except PermissionError:
-        pass
-    return pid != os.getpid()
 
 
 def _drop_from(path: Path, cycle: int) -> None:

@@ -59,6 +59,22 @@ def test_a_run_whose_child_died_finishes(db: Database, settings: Settings) -> No
     assert run.attempt == 2
 
 
+def test_an_attempt_removes_what_killed_processes_left_half_written_and_nothing_of_living_ones(
+    db: Database, settings: Settings
+) -> None:
+    run_id = queued_run(db)
+    directory = settings.run_directory(run_id)
+    directory.mkdir(parents=True)
+    dead, living = directory / ".checkpoint.pt.4194305.tmp", directory / f".episode-1-0.mp4.{os.getpid()}.tmp"
+    for path in (dead, living):
+        path.touch()
+
+    with worker(db, settings, "counts"):
+        wait_for_state(db, run_id, RunState.SUCCEEDED)
+
+    assert (dead.exists(), living.exists()) == (False, True)
+
+
 def test_cancel_stops_a_child_that_listens(db: Database, settings: Settings) -> None:
     run_id = queued_run(db)
     with worker(db, settings, "lasts"):
