@@ -41,7 +41,10 @@ def test_a_range_is_answered_with_that_part(service: Service, run_id: str, asked
     assert (answer.status_code, answer.content) == (206, part)
 
 
-@pytest.mark.parametrize("asked", ["bytes=9999-", "bytes=5-2", "bytes=-0", "bytes=-", "lines=1-2", "bytes=0-1,4-5"])
+@pytest.mark.parametrize(
+    "asked",
+    ["bytes=9999-", "bytes=5-2", "bytes=-0", "bytes=-", "lines=1-2", "bytes=0-1,4-5", f"bytes=0-{'9' * 5000}"],
+)
 def test_a_range_that_cannot_be_answered_is_refused_in_words(service: Service, run_id: str, asked: str):
     answer = service.client.get(f"/api/runs/{run_id}/files/policy-best.pt", headers={"range": asked})
     assert answer.status_code == 416
