@@ -16,9 +16,6 @@ from sldr_core.config import PHASES, Phase
 from sldr_core.errors import InvalidConfig, UnknownName
 from sldr_core.presets import make_config
 
-SET_BY_THE_ORDER = ("task", "phase", "method", "seed")
-"""Settings that an order names itself, so that its overrides must not."""
-
 
 @dataclass(frozen=True)
 class LaunchOrder:
@@ -76,17 +73,3 @@ def _check(order: LaunchOrder) -> None:
     twice = sorted({seed for seed in order.seeds if list(order.seeds).count(seed) > 1})
     if twice:
         raise InvalidConfig({"seeds": f"{twice[0]} is listed more than once; list each seed once."})
-    check_overrides(order.overrides)
-
-
-def check_overrides(overrides: Mapping[str, Any]) -> None:
-    """Refuse overrides of what an order names itself.
-
-    Raises:
-        InvalidConfig: there is one.
-    """
-    misplaced = [name for name in SET_BY_THE_ORDER if name in overrides]
-    if misplaced:
-        raise InvalidConfig(
-            {name: "is named by the launch itself; leave it out of the overrides." for name in misplaced}
-        )

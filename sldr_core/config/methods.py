@@ -158,7 +158,7 @@ METHODS: dict[str, MethodSpec] = {
 """The methods, in the order in which parts are added to the plainest."""
 
 LOCOMOTION_METHOD = "her"
-"""Every locomotion run is trained with this method (paper, Algorithm 1)."""
+"""Locomotion runs are trained with this method unless told otherwise (paper, Algorithm 1)."""
 
 SWITCHES = {
     "sampler": "sampler",

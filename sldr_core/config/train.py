@@ -88,7 +88,8 @@ class ReplayConfig:
     capacity: Positive = 1_000_000
     """Transitions held; whole episodes, the oldest replaced first."""
     relabel_probability: Share = 0.8
-    """Share of sampled transitions whose goal is replaced by one achieved later in the episode."""
+    """Share of sampled transitions whose goal is replaced by one achieved later in the episode (`make_config` and every
+    launch: as the method has it)."""
     still_weight: Annotated[float, Field(gt=0.0, le=1.0)] = 1.0
     """How often an episode in which nothing moved is drawn, against one in which something did (1: alike)."""
     met_weight: Annotated[float, Field(gt=0.0, le=1.0)] = 1.0
@@ -129,7 +130,7 @@ class TrainConfig:
     phase: Phase = "manipulation"
     """Who acts: the object on its own (locomotion) or the robot (manipulation)."""
     method: str = "her-sldr"
-    """Which rewards and which sampler the agent learns with."""
+    """Which rewards and which sampler the agent learns with; its share of replaced goals is a setting of its own."""
     seed: Annotated[int, Field(ge=0, lt=2**31)] = 0
     """Seed of every random number of the training."""
     loop: LoopConfig = Field(default_factory=LoopConfig)

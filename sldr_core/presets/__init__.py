@@ -27,6 +27,9 @@ from sldr_core.errors import InvalidConfig, UnknownName
 Settings = dict[str, Any]
 """Settings of a config as nested plain values; only those that differ from the defaults."""
 
+NAMED_BESIDE = ("task", "phase", "method", "seed")
+"""What no override replaces: task, phase and method bring numbers of their own."""
+
 _FROZEN = ConfigDict(extra="forbid", use_attribute_docstrings=True)
 
 
@@ -163,8 +166,9 @@ def make_config(
 
     Raises:
         UnknownName: task, method or preset does not exist.
-        InvalidConfig: a setting is unknown or cannot work.
+        InvalidConfig: a setting is unknown or cannot work, or an override names what is an argument.
     """
+    check_overrides(overrides or {})
     settings: Settings = {"task": task, "phase": phase, "method": method, "seed": seed}
     spec, budget = find_task(task, _variant_in(overrides)), find_preset(preset)
     _merge(settings, _task_settings(spec, phase))
@@ -174,6 +178,19 @@ def make_config(
     _merge(settings, getattr(budget, phase))
     _merge(settings, overrides or {})
     return config_from_dict(settings)
+
+
+def check_overrides(overrides: Mapping[str, Any]) -> None:
+    """Refuse overrides of what other settings follow from.
+
+    Raises:
+        InvalidConfig: there is one.
+    """
+    misplaced = [name for name in NAMED_BESIDE if name in overrides]
+    if misplaced:
+        raise InvalidConfig(
+            {name: "is named by the launch itself; leave it out of the settings." for name in misplaced}
+        )
 
 
 def lay_over(settings: Mapping[str, Any], changes: Mapping[str, Any]) -> Settings:

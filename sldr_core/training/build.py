@@ -112,9 +112,8 @@ def build_training(
         compute.device,
         compute.autocast,
     )
-    locomotion = config.phase == "locomotion"
-    inverse = InverseLearner(envs.obs_size, envs.action_size, config.agent, weights, compute.device, compute.autocast)
-    learners = Learners(agent, inverse if locomotion else None, streams)
+    inverse = _build_inverse(config, compute, envs, weights) if config.phase == "locomotion" else None
+    learners = Learners(agent, inverse, streams)
     buffer = _make_buffer(config, directory, envs, streams, list(learners.states().values()))
     rng = np.random.default_rng(sampling_seed)
     return Parts(
@@ -219,6 +218,10 @@ def _build_streams(
     order = StreamOrder(config, models, generator, compute.device, compute.autocast)
     brought = [stream for name in config.method_spec.auxiliary for stream in AUXILIARY[name](order)]
     return (TaskStream(), *brought)
+
+
+def _build_inverse(config: TrainConfig, compute: Compute, envs: Envs, weights: torch.Generator) -> InverseLearner:
+    return InverseLearner(envs.obs_size, envs.action_size, config.agent, weights, compute.device, compute.autocast)
 
 
 def _build_envs(config: TrainConfig, compute: Compute, seed: int, testing: bool) -> Envs:

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from sldr_core.envs import make_envs
+from sldr_core.errors import InvalidConfig
 from sldr_core.training.compute import resolve_compute
 from sldr_core.training.policy import load_policy
 from sldr_core.training.testing import run_test, wilson_interval
@@ -46,7 +47,10 @@ def evaluate(path: Path, episodes: int, seed: int) -> EvaluationResult:
 
     Raises:
         BadFile: the file holds no usable policy.
+        InvalidConfig: there is nothing to run, or no such seed.
     """
+    if episodes < 1 or seed < 0:
+        raise InvalidConfig({"episodes" if episodes < 1 else "seed": "is too low; give 1 episode and seed 0 or more."})
     policy = load_policy(path)
     config = policy.config
     # The policy acts on the processor: the file may come from a machine with a GPU.

@@ -30,8 +30,8 @@ class Policy:
 
     Attributes:
         config: what was trained.
-        epoch: epochs trained when it was saved; None where the file does not say.
-        success_rate: success of its test; None where the file does not say.
+        epoch: epochs trained when it was saved; None of a checkpoint or locomotion model.
+        success_rate: success of its test; None of a checkpoint or locomotion model.
     """
 
     config: TrainConfig

@@ -8,12 +8,14 @@ from __future__ import annotations
 import os
 import platform
 from dataclasses import replace
+from functools import partial
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import torch
 
-from sldr_core.disk import write_atomically
+from sldr_core.disk import hold_lock, write_atomically
 from sldr_core.nets.locomotion_model import LocomotionModel, Measured, load_locomotion_model
 from sldr_core.training.evaluation import evaluate
 from sldr_core.training.halving import halve
@@ -22,6 +24,7 @@ from sldr_core.zoo.index import Measurement, Origin, ZooModel, checksum, name_of
 TEST_EPISODES = 380
 """Episodes that a model is measured over."""
 TEST_SEED = 0
+LOCK_FILE = ".lock"
 PACKAGES = ("sldr", "torch", "numpy", "mujoco", "mjbatch", "gymnasium-robotics")
 
 
@@ -38,22 +41,16 @@ def add_to_zoo(source: Path, directory: Path, origin: Origin, episodes: int = TE
         BadFile: the file is no usable locomotion model, or a weight is too large for half precision.
     """
     model = load_locomotion_model(source)
-    name = name_of(model.config)
-    models = read_zoo(directory)
+    read_zoo(directory)  # One that cannot be read is told of before minutes of measuring.
     directory.mkdir(parents=True, exist_ok=True)
+    measured = _measure(model, source, episodes)
+    name = name_of(model.config)
     path = directory / f"{name}.pt"
-    measured = Measurement(0, episodes, TEST_SEED, 0.0, 1.0)
-
-    def write(temporary: Path) -> None:
-        nonlocal measured
-        _save_halved(replace(model, measured=Measured(0.0, episodes)), source, temporary)
-        result = evaluate(temporary, episodes, TEST_SEED)
-        measured = Measurement(result.successes, episodes, TEST_SEED, result.low, result.high)
-        _save_halved(replace(model, measured=Measured(result.success_rate, episodes)), source, temporary)
-
-    write_atomically(path, write)
-    added = ZooModel(name, path, path.stat().st_size, checksum(path), model.config, measured, origin)
-    write_zoo(directory, {**models, name: added})
+    # Measuring takes minutes, in which others may add theirs.
+    with hold_lock(directory / LOCK_FILE):
+        write_atomically(path, partial(_save_halved, replace(model, measured=_told(measured)), source))
+        added = ZooModel(name, path, path.stat().st_size, checksum(path), model.config, measured, origin)
+        write_zoo(directory, {**read_zoo(directory), name: added})
     return added
 
 
@@ -68,6 +65,19 @@ def describe_machine() -> str:
     processor = next(names, platform.machine())
     gpu = torch.cuda.get_device_name() if torch.cuda.is_available() else "no GPU"
     return f"{len(os.sched_getaffinity(0))} cores of {processor}, {gpu}"
+
+
+def _measure(model: LocomotionModel, source: Path, episodes: int) -> Measurement:
+    """Run the model as it will be shipped, halved, from a file of its own."""
+    with TemporaryDirectory(prefix="sldr-zoo-") as directory:
+        halved = Path(directory) / "halved.pt"
+        _save_halved(model, source, halved)
+        result = evaluate(halved, episodes, TEST_SEED)
+    return Measurement(result.successes, episodes, TEST_SEED, result.low, result.high)
+
+
+def _told(measured: Measurement) -> Measured:
+    return Measured(measured.success_rate, measured.episodes)
 
 
 def _save_halved(model: LocomotionModel, source: Path, path: Path) -> None:

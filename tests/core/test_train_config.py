@@ -250,3 +250,10 @@ def test_every_seed_shares_one_locomotion_run() -> None:
 def test_a_config_cannot_be_changed() -> None:
     with pytest.raises(AttributeError):
         TrainConfig().seed = 3  # pyright: ignore[reportAttributeAccessIssue]
+
+
+@pytest.mark.parametrize("name", ["task", "phase", "method", "seed"])
+def test_no_override_replaces_what_other_settings_follow_from(name: str) -> None:
+    values = {"task": "HandPenFull", "phase": "locomotion", "method": "her", "seed": 1}
+    with pytest.raises(InvalidConfig, match=f"{name}: is named by the launch itself"):
+        make_config("FetchPush", "manipulation", "ddpg", 0, "quick", {name: values[name]})

@@ -15,6 +15,8 @@ from sldr_core.errors import BadFile
 from sldr_core.nets.locomotion_model import load_locomotion_model
 from sldr_core.presets import make_config
 from sldr_core.training import evaluate, load_policy
+from sldr_core.training.evaluation import EvaluationResult
+from sldr_core.zoo import adding
 from sldr_core.zoo.adding import TEST_SEED, add_to_zoo, origin_here
 from sldr_core.zoo.index import INDEX_FILE, SHIPPED, ZooModel, find_in_zoo, read_zoo
 
@@ -72,6 +74,25 @@ def test_a_weight_too_large_for_half_precision_is_refused_and_nothing_is_left(tm
         add_to_zoo(source, tmp_path / "zoo", origin_here("smoke"), episodes=1)
 
     assert not list((tmp_path / "zoo").iterdir())
+
+
+def test_a_model_that_is_added_while_another_is_measured_stays(
+    source: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    other = save_model(tmp_path / "other.pt", task="FetchSlide")
+
+    def evaluate_slowly(path: Path, episodes: int, seed: int) -> EvaluationResult:
+        monkeypatch.setattr(adding, "evaluate", evaluate)
+        add_to_zoo(other, tmp_path / "zoo", origin_here("smoke"), episodes=1)
+        return evaluate(path, episodes, seed)
+
+    monkeypatch.setattr(adding, "evaluate", evaluate_slowly)
+    add_to_zoo(source, tmp_path / "zoo", origin_here("smoke"), episodes=1)
+
+    models = read_zoo(tmp_path / "zoo")
+    assert sorted(models) == ["FetchPush", "FetchSlide"]
+    for model in models.values():
+        model.check()
 
 
 def test_a_changed_file_is_refused(shipped: ZooModel, tmp_path: Path) -> None:

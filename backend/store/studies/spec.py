@@ -9,11 +9,10 @@ from itertools import product
 from typing import Any
 from unicodedata import category
 
-from backend.store.launches import check_overrides
 from backend.store.locomotion import TRAIN
 from sldr_core.config import TASKS, TrainConfig, config_hash, find_method
 from sldr_core.errors import InvalidConfig, UnknownName
-from sldr_core.presets import find_preset, lay_over, make_config
+from sldr_core.presets import check_overrides, find_preset, lay_over, make_config
 
 MOST_PLACES = 2000
 """Places that a study may have, locomotion runs not counted; so no axis is longer than this."""

@@ -17,7 +17,7 @@ import tyro
 from rich.console import Console
 
 from sldr_core.config import LOCOMOTION_METHOD, Phase, TrainConfig, find_task
-from sldr_core.errors import BadFile, LocomotionMissing
+from sldr_core.errors import BadFile, InvalidConfig, LocomotionMissing
 from sldr_core.presets import locomotion_tasks, make_config
 from worker.cli.settings import parse_settings
 
@@ -113,6 +113,8 @@ def _check_locomotion(config: TrainConfig, models: Sequence[Path]) -> None:
             f"'sldr train --task {locomotion_tasks(config)[0]} --phase locomotion --out DIR', "
             "then pass --locomotion-model DIR/locomotion.pt."
         )
+    if models and not config.needs_locomotion:
+        raise InvalidConfig({"locomotion-model": f"method {config.method} takes no reward from one; leave it out."})
     for model in models:
         if not model.is_file():
             raise BadFile(f"There is no locomotion model {model}; give the locomotion.pt of a locomotion training.")
