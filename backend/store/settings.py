@@ -49,6 +49,11 @@ class Settings:
         return self.home / "fetched"
 
     @property
+    def known_place_file(self) -> Path:
+        """Which shared directory this machine has used, so that it is missed when it is not mounted."""
+        return self.home / "files-place"
+
+    @property
     def secret_path(self) -> Path:
         """The key that signs viewer tokens."""
         return self.home / "secret"

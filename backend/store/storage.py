@@ -15,6 +15,7 @@ from pathlib import Path, PurePosixPath
 
 from backend.store.errors import BadAddress, FileGone, FilesUnavailable
 from backend.store.files import FileRow
+from backend.store.place_mark import PlaceMark
 from backend.store.settings import FILES_VARIABLE, Settings
 from sldr_core.disk import explain_full_disk, temporary_beside
 from sldr_core.errors import BadFile
@@ -30,7 +31,7 @@ class FileStorage:
 
     def __init__(self, settings: Settings) -> None:
         self._settings = settings
-        self._shared = SharedPlace(settings.files_url) if settings.files_url else None
+        self._shared = SharedPlace(settings.files_url, settings.known_place_file) if settings.files_url else None
 
     @property
     def shared(self) -> SharedPlace | None:
@@ -105,7 +106,16 @@ class FileStorage:
 class SharedPlace:
     """Speak to fsspec in the few words that are needed, and say its many errors in one way."""
 
-    def __init__(self, url: str) -> None:
+    def __init__(self, url: str, known_file: Path | None = None) -> None:
+        """Prepare to speak to a place.
+
+        Args:
+            url: its address.
+            known_file: where this machine notes that it has used the place; None if it need not know it again.
+
+        Raises:
+            BadAddress: it cannot be used.
+        """
         # Imported here: whoever has no shared place should not wait for it.
         from fsspec.core import url_to_fs
 
@@ -120,6 +130,7 @@ class SharedPlace:
             ) from err
         self._root = root.rstrip("/")
         self._made: set[str] = set()
+        self._mark = PlaceMark(Path(self._root), known_file) if known_file and self._is_on_this_machine else None
 
     def put(self, local: Path, path: str) -> None:
         """Copy a file there."""
@@ -183,7 +194,7 @@ class SharedPlace:
     def remove(self, path: str) -> None:
         """Remove a file; it may be gone already."""
         try:
-            with self._told("write", path):
+            with self._told("remove", path):
                 self._files.rm_file(f"{self._root}/{path}")
         except FileGone:
             pass
@@ -196,7 +207,14 @@ class SharedPlace:
         # Some kinds of place leave out the slash that others begin a path with.
         return [path.lstrip("/").removeprefix(self._root.strip("/")).lstrip("/") for path in found]
 
+    @property
+    def _is_on_this_machine(self) -> bool:
+        """Whether the system itself reaches the place, which may be mounted or not."""
+        return "file" in self._files.protocol
+
     def _place_for(self, path: str) -> str:
+        if self._mark is not None:
+            self._mark.insist()
         full = PurePosixPath(f"{self._root}/{path}")
         if str(full.parent) not in self._made:
             self._files.makedirs(str(full.parent), exist_ok=True)
@@ -205,7 +223,7 @@ class SharedPlace:
 
     def _sync(self, full: str) -> None:
         """Bring a file of this machine to its disk; elsewhere the answer to the upload means that."""
-        if "file" in self._files.protocol:
+        if self._is_on_this_machine:
             descriptor = os.open(full, os.O_RDONLY)
             try:
                 os.fsync(descriptor)
@@ -217,9 +235,10 @@ class SharedPlace:
         """Say the errors of any kind of place in our own words."""
         try:
             yield
-        except FileNotFoundError as err:
-            raise FileGone(f"{self._root}/{path} is gone.") from err
         except Exception as err:  # Every kind of place has its own: OSError, botocore, aiohttp, google.auth ...
+            is_away = what == "write" or (self._mark is not None and self._mark.is_missing())
+            if isinstance(err, FileNotFoundError) and not is_away:
+                raise FileGone(f"{self._root}/{path} is gone.") from err
             raise FilesUnavailable(
                 f"{FILES_VARIABLE}: {self._root}/{path} could not be {_DONE[what]} just now ({err})."
             ) from err
@@ -240,4 +259,4 @@ def _is_that_file(path: Path, row: FileRow) -> bool:
     return path.is_file() and path.stat().st_size == row.size and checksum(path) == row.sha256
 
 
-_DONE = {"read": "read", "write": "written"}
+_DONE = {"read": "read", "write": "written", "remove": "removed"}

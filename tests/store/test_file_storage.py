@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import shutil
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from datetime import UTC, datetime
@@ -150,6 +151,47 @@ def test_a_place_that_cannot_be_written_is_told_as_trouble_that_may_pass(tmp_pat
 
     with pytest.raises(FilesUnavailable, match=r"SLDR_FILES_URL: .* could not be written just now"):
         kept(machine(tmp_path, "a", f"file://{tmp_path}/shared"))
+
+
+def unmount(place: Path) -> None:
+    """Leave what a machine sees of a place that is not mounted."""
+    shutil.rmtree(place)
+    place.mkdir()
+
+
+@pytest.mark.parametrize("is_same_process", [True, False])
+def test_a_place_that_is_not_mounted_any_more_is_not_written_in_its_stead(
+    tmp_path: Path, is_same_process: bool
+) -> None:
+    settings = machine(tmp_path, "a", f"file://{tmp_path}/shared")
+    storage = FileStorage(settings)
+    row = kept(settings)
+    storage.keep(RUN, 1, written(settings), row.sha256)
+    unmount(tmp_path / "shared")
+
+    storage = storage if is_same_process else FileStorage(settings)
+    with pytest.raises(FilesUnavailable, match="was used before and now holds no file sldr-files: mount it again"):
+        storage.keep(RUN, 2, written(settings), row.sha256)
+
+    assert list((tmp_path / "shared").iterdir()) == []
+
+
+def test_a_file_at_a_place_that_is_not_mounted_is_not_taken_for_gone(tmp_path: Path) -> None:
+    there = machine(tmp_path, "b", f"file://{tmp_path}/shared")
+    kept(there)
+    row = kept(machine(tmp_path, "a", f"file://{tmp_path}/shared"), CONTENT * 2)
+    unmount(tmp_path / "shared")
+
+    with pytest.raises(FilesUnavailable, match="could not be read just now"):
+        FileStorage(there).bring(row)
+
+
+def test_a_place_from_before_there_were_marks_is_marked_when_it_is_written(tmp_path: Path) -> None:
+    (tmp_path / "shared" / "runs").mkdir(parents=True)
+
+    kept(machine(tmp_path, "a", f"file://{tmp_path}/shared"))
+
+    assert (tmp_path / "shared" / "sldr-files").is_file()
 
 
 @pytest.mark.parametrize(
