@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import errno
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import NoReturn
 
 import media_targets
 import pytest
 from media_cases import claimed_run, store_episodes, store_file, tick_until_ended
 
+from backend.store import storage
 from backend.store.claims import Claim
 from backend.store.database import Database
 from backend.store.files import find_file
@@ -85,6 +88,24 @@ def test_an_order_whose_source_is_gone_fails_by_itself(db, settings, held, make_
     job = tick_until_ended(make_host(media_targets.write_words), db, ordered(db, held).id)
     assert job.reason is not None
     assert "is gone" in job.reason
+
+
+def refuse(path: Path) -> NoReturn:
+    """Stand in for the checksum of a file that another user owns."""
+    raise PermissionError(errno.EACCES, "Permission denied", str(path))
+
+
+def test_an_order_whose_source_cannot_be_read_fails_by_itself(
+    db: Database, held: Claim, make_host: Callable[[Target], MediaHost], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    host, job = make_host(media_targets.write_words), ordered(db, held)
+    with monkeypatch.context() as patched:
+        patched.setattr(storage, "checksum", refuse)
+        refused = tick_until_ended(host, db, job.id)
+
+    assert refused.reason is not None
+    assert "cannot be read ([Errno 13] Permission denied: " in refused.reason
+    assert tick_until_ended(host, db, ordered(db, held, "next.mp4").id).state == "done"
 
 
 def test_a_machine_that_cannot_draw_says_so_once_and_plans_nothing_more(

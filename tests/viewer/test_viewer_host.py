@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import signal
 import subprocess
@@ -10,7 +11,7 @@ import time
 from collections.abc import Callable, Generator, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 import httpx
 import msgspec
@@ -29,6 +30,7 @@ from backend.store.errors import StoreUnavailable
 from backend.store.launches import LaunchOrder, launch
 from backend.store.settings import Settings
 from sldr_core.config import TASKS
+from worker.viewer import host as viewer_host
 from worker.viewer.host import Host, Limits
 from worker.viewer.process import serve_session
 
@@ -194,6 +196,20 @@ def test_a_run_without_a_policy_fails_at_once(make_host, database, settings, run
     asked = viewer_sessions.request_session(database, run_id)
     failed = tick_until(host, database, asked.id, "failed")
     assert failed.message == f"Run {run_id} has no policy to watch yet; wait for its first test."
+
+
+def test_a_file_that_cannot_be_read_ends_its_session_and_no_other(make_host, database, run_id, monkeypatch):
+    def refuse(*_: object) -> NoReturn:
+        raise PermissionError(errno.EACCES, "Permission denied", "policy-newest.pt")
+
+    host = make_host(viewer_targets.serve_nothing)
+    watched = viewer_sessions.request_session(database, run_id)
+    tick_while(host, lambda: watched.id not in host.served)
+    monkeypatch.setattr(viewer_host, "find_session_files", refuse)
+    failed = tick_until(host, database, viewer_sessions.request_session(database, run_id).id, "failed")
+
+    assert "cannot be read ([Errno 13] Permission denied: 'policy-newest.pt')" in (failed.message or "")
+    assert watched.id in host.served
 
 
 def test_a_full_host_ends_the_session_that_was_idle_longest(make_host, database, run_id):

@@ -120,6 +120,11 @@ class MediaHost:
         except SldrError as err:
             fail_media(self._database, job, str(err))
             return
+        except OSError as err:
+            fail_media(
+                self._database, job, f"A file of the run cannot be read ({err}); let this machine's viewer read it."
+            )
+            return
         self._drawing = _Drawing(job, order, begun=now, renewed=now)
         self._process.send(order)
 

@@ -141,13 +141,19 @@ class Host:
         try:
             files = find_session_files(self._files, session)
         except (SldrError, FilesUnavailable) as err:
-            viewer_sessions.mark_ended(self.database, session.id, failed=True, message=str(err))
+            self._refuse(session, str(err))
+            return
+        except OSError as err:
+            self._refuse(session, f"A file of the run cannot be read ({err}); let this machine's viewer read it.")
             return
         if not self._make_room():
-            message = f"All {self.limits.sessions} 3D views of this machine are being watched; close one and try again."
-            viewer_sessions.mark_ended(self.database, session.id, failed=True, message=message)
+            watched = f"All {self.limits.sessions} 3D views of this machine are being watched"
+            self._refuse(session, f"{watched}; close one and try again.")
         else:
             self.served[session.id] = self._start(session, files, now)
+
+    def _refuse(self, session: viewer_sessions.Session, message: str) -> None:
+        viewer_sessions.mark_ended(self.database, session.id, failed=True, message=message)
 
     def _next(self, open_sessions: Sequence[viewer_sessions.Session]) -> viewer_sessions.Session | None:
         """Return a session that was taken and could not be served when the store went away, or take another."""
@@ -241,7 +247,7 @@ class Host:
             return
         try:
             find_session_files(self._files, session)
-        except (SldrError, FilesUnavailable) as err:
+        except (SldrError, FilesUnavailable, OSError) as err:
             log.warning("session %s goes on with what it has: %s", session.id, err)
 
 
