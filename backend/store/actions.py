@@ -133,11 +133,13 @@ def _retry(conn: Connection, held: Held, at: datetime) -> str:
 
 
 def _put_back(conn: Connection, held: Held, event: Event, at: datetime, changes: Mapping[str, object]) -> str:
-    """Let a run wait for a worker, or for what it needs."""
+    """Let a run wait for a worker, or for what it needs; that is brought back if somebody has deleted it."""
     obstacle = why_held(held)
     to = RunState.QUEUED if obstacle is None else RunState.BLOCKED
     change_state(conn, held.run.id, event, at=at, reason=obstacle, to=to, changes={**changes, "not_before": None})
-    return f"Run {held.run.id} is queued." if obstacle is None else f"Run {held.run.id} waits: {obstacle}"
+    message = f"Run {held.run.id} is queued." if obstacle is None else f"Run {held.run.id} waits: {obstacle}"
+    back = _bring_back_needed(conn, held, at)
+    return f"{message} Brought back with it: {_named(back)}." if back else message
 
 
 def _release(conn: Connection, held: Held, at: datetime) -> str:
@@ -149,6 +151,7 @@ def _release(conn: Connection, held: Held, at: datetime) -> str:
             raise Refused(f"Run {run.id} has no locomotion model to start with yet: {obstacle}")
     reason = "Released by hand, below its gate."
     change_state(conn, run.id, Event.RELEASED, at=at, reason=reason, changes={"gate_waived": True})
+    _bring_back_needed(conn, held, at)
     return f"Run {run.id} is queued, below its gate."
 
 
@@ -167,10 +170,17 @@ def _restore(conn: Connection, held: Held, at: datetime) -> str:
     run = held.run
     if run.deleted_at is None:
         raise Refused(f"Run {run.id} is not deleted.")
-    needed = [row.id for row in held.needed if row.deleted_at is not None]
-    for run_id in (run.id, *needed):
-        change_state(conn, run_id, Event.RESTORED, at=at, changes={"deleted_at": None})
+    change_state(conn, run.id, Event.RESTORED, at=at, changes={"deleted_at": None})
+    needed = _bring_back_needed(conn, held, at)
     return f"Run {run.id} is back{f', and with it {_named(needed)} that it needs' if needed else ''}."
+
+
+def _bring_back_needed(conn: Connection, held: Held, at: datetime) -> list[str]:
+    """Restore what a run needs and somebody has deleted; return the ids: no worker takes what is deleted."""
+    deleted = [row.id for row in held.needed if row.deleted_at is not None]
+    for run_id in deleted:
+        change_state(conn, run_id, Event.RESTORED, at=at, changes={"deleted_at": None})
+    return deleted
 
 
 def _waiting_for(conn: Connection, run_id: str) -> list[str]:

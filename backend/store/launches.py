@@ -49,6 +49,7 @@ def launch(db: Database, order: LaunchOrder, shelf: ZooShelf | None = None) -> l
     Raises:
         UnknownName: task, phase, method or preset does not exist.
         InvalidConfig: a setting is unknown or cannot work.
+        Refused: a locomotion run that would serve was deleted meanwhile.
     """
     with db.write() as conn:
         # Two launches at once must not both find that a locomotion run has to be made.

@@ -11,6 +11,7 @@ from typing import Any
 from sqlalchemy import Connection, func, insert, or_, select
 
 from backend.store.dependents import why_blocked
+from backend.store.errors import Refused
 from backend.store.locomotion import LocomotionWish, find_sources
 from backend.store.order import last_position
 from backend.store.states import Event, RunState, append_event
@@ -132,6 +133,7 @@ def make_runs(
     Raises:
         BadFile: a model of the zoo is not the one that was measured.
         DiskTooFull: there is no room for it.
+        Refused: a locomotion run of the plan was deleted meanwhile.
     """
     ids = {planned.config_hash: planned.reused_run_id or _new_id() for planned in plan}
     new = [planned for planned in plan if planned.reused_run_id is None]
@@ -155,9 +157,12 @@ def _insert_runs(conn: Connection, new: Sequence[PlannedRun], ids: Mapping[str, 
         return
     edges = {ids[planned.config_hash]: [ids[digest] for digest in planned.needs] for planned in new}
     needed_ids = {needed_id for of_one_run in edges.values() for needed_id in of_one_run}
-    # Locked, so that a locomotion run cannot end unseen between this look and the insert.
+    # Locked, so that a locomotion run can neither end nor go unseen between this look and the insert.
     query = select(runs).where(runs.c.id.in_(needed_ids)).order_by(runs.c.number)
     needed = conn.execute(query.with_for_update()).all()
+    for row in needed:
+        if row.deleted_at is not None:
+            raise Refused(f"The locomotion run {row.id} was deleted just now; launch again to train another.")
     rows = [_new_row(planned, ids, needed) for planned in new]
     first = last_position(conn)
     placed = [{**row, "queue_position": first + place, "created_at": at} for place, row in enumerate(rows)]

@@ -5,17 +5,19 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
+from sqlalchemy import update
 from store_cases import claim_next, claimed_run, order, put_in_state, queued_run
 
 from backend.store.actions import Action, ActionResult, act_on
 from backend.store.claims import Claim
-from backend.store.database import Database
+from backend.store.database import Database, current_time
 from backend.store.errors import StaleFence
 from backend.store.launches import launch, plan_launch
 from backend.store.outcomes import Cancelled, Failed, HandedBack, Paused, Succeeded
 from backend.store.queue import claim, finish, heartbeat
 from backend.store.runs import RunFilter, RunRow, get_run, list_events, list_runs
 from backend.store.states import Event, RunState
+from backend.store.tables import runs
 
 GATED = order(method="her-sldr", overrides={"sldr": {"gate": 0.95}})
 
@@ -165,6 +167,27 @@ def test_a_run_comes_back_with_the_locomotion_run_that_it_needs(db: Database) ->
     assert result.message == f"Run {manipulation} is back, and with it run {locomotion} that it needs."
     assert get_run(db, locomotion).deleted_at is None
     assert claim_next(db).run_id == locomotion
+
+
+def test_a_run_that_is_tried_again_brings_back_the_locomotion_run_that_it_needs(db: Database) -> None:
+    locomotion, manipulation = launch(db, GATED)
+    done(db, Action.CANCEL, manipulation)
+    done(db, Action.DELETE, locomotion)
+
+    result = do(db, Action.RETRY, manipulation)
+
+    assert result.message.endswith(f" {locomotion}. Brought back with it: run {locomotion}.")
+    assert claim_next(db).run_id == locomotion
+
+
+def test_a_run_that_is_released_brings_back_the_locomotion_run_that_it_needs(db: Database) -> None:
+    locomotion, manipulation = below_gate(db)
+    with db.write() as conn:  # as an earlier version let it happen
+        conn.execute(update(runs).where(runs.c.id == locomotion).values(deleted_at=current_time(conn)))
+
+    done(db, Action.RELEASE, manipulation)
+
+    assert get_run(db, locomotion).deleted_at is None
 
 
 def test_a_failed_run_is_retried_with_all_its_attempts_and_a_new_fence(db: Database) -> None:

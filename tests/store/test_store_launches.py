@@ -8,11 +8,13 @@ import pytest
 from sqlalchemy import update
 from store_cases import claim_next, order
 
-from backend.store.actions import request_cancel
-from backend.store.database import Database
+from backend.store.actions import Action, act_on, request_cancel
+from backend.store.database import Database, current_time
+from backend.store.errors import Refused
 from backend.store.launches import LaunchOrder, launch, plan_launch
 from backend.store.outcomes import Failed, Succeeded
 from backend.store.queue import claim, finish
+from backend.store.run_plans import make_runs
 from backend.store.runs import RunFilter, get_run, list_runs
 from backend.store.states import RunState
 from backend.store.tables import runs
@@ -116,6 +118,15 @@ def test_two_named_locomotion_runs_of_one_task_are_refused(db: Database, places:
 
     with pytest.raises(InvalidConfig, match=f"{ids[0]} and {ids[1]} are both of FetchPush; name one of them"):
         launch(db, replace(sldr(), locomotion=f"{first},{second}"))
+
+
+def test_a_locomotion_run_that_is_deleted_meanwhile_is_not_shared(db: Database) -> None:
+    locomotion, manipulation = launch(db, sldr())
+    plan = plan_launch(db, sldr((1,)))
+    act_on(db, Action.DELETE, [manipulation, locomotion])
+
+    with pytest.raises(Refused, match=f"The locomotion run {locomotion} was deleted just now"), db.write() as conn:
+        make_runs(conn, plan, current_time(conn))
 
 
 def test_a_run_starts_when_the_gate_is_met(db: Database) -> None:

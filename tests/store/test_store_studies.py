@@ -9,7 +9,7 @@ import pytest
 from store_cases import at_once, order
 from study_cases import cell_of, small_spec, train_next
 
-from backend.store.actions import Action, act, request_cancel
+from backend.store.actions import Action, act, act_on, request_cancel
 from backend.store.database import Database
 from backend.store.errors import NotFound, Refused
 from backend.store.launches import launch
@@ -222,6 +222,23 @@ def test_cancelled_runs_are_left_alone_unless_they_are_meant(db: Database) -> No
 
     assert retry_study(db, study) == []
     assert [result.run_id for result in retry_study(db, study, cancelled=True)] == [cancelled]
+
+
+def test_a_locomotion_run_that_was_cancelled_and_deleted_is_tried_again_with_those_that_need_it(db: Database) -> None:
+    study = made(db, methods=("her-sldr",))
+    (locomotion,) = get_study(db, study).locomotion
+    needing = study_run_ids(db, study)
+    act_on(db, Action.CANCEL, [*needing, locomotion.run_id])
+    act_on(db, Action.DELETE, [locomotion.run_id])
+
+    results = retry_study(db, study, cancelled=True)
+
+    assert [(result.run_id, result.done) for result in results] == [
+        *((run_id, True) for run_id in needing),
+        (locomotion.run_id, True),
+    ]
+    assert get_run(db, locomotion.run_id).state is RunState.QUEUED
+    assert {get_run(db, run_id).reason for run_id in needing} == {f"Waits for the locomotion run {locomotion.run_id}."}
 
 
 def test_a_deleted_study_keeps_its_runs_and_comes_back(db: Database) -> None:

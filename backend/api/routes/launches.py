@@ -38,7 +38,7 @@ def plan_launch(launch: Launch, store: Store, settings: ServiceSettings) -> Laun
     )
 
 
-@router.post("", status_code=201, responses=problem_responses(400, 403, 422))
+@router.post("", status_code=201, responses=problem_responses(400, 403, 409, 422))
 @needs("operator")
 def create_launch(launch: Launch, store: Store, settings: ServiceSettings) -> LaunchResult:
     """Queue a launch's runs, the locomotion run they need first."""

@@ -21,4 +21,8 @@ def retry_study(db: Database, study_id: str, cancelled: bool = False) -> list[Ac
         raise Refused(f"Study '{matrix.study.name}' is deleted; restore it first.")
     ended = RunState.CANCELLED if cancelled else RunState.FAILED
     every = [*matrix.locomotion, *(run for cell in matrix.cells for run in cell.runs)]
-    return act_on(db, Action.RETRY, [run.run_id for run in every if run.state is ended])
+    tried = [run.run_id for run in every if run.state is ended]
+    results = act_on(db, Action.RETRY, tried)
+    # A run brings back what it needs if that was deleted, so there may be more locomotion runs now.
+    back = [run.run_id for run in get_study(db, study_id).locomotion if run.state is ended and run.run_id not in tried]
+    return results + act_on(db, Action.RETRY, back)
