@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import secrets
 import uuid
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime, timedelta
 from typing import Any, Literal
@@ -206,9 +206,19 @@ def _untold(conn: Connection, at: datetime) -> list[tuple[str, Notice]]:
         lately = select_notices(conn, max(row.created_at, at - timedelta(seconds=KEPT_S)))
         wanted = [notice for notice in lately if notice.event in row.events]
         if wanted:
-            there = {tuple(key) for key in conn.execute(told.where(webhook_deliveries.c.webhook_id == row.id))}
-            found += [(row.id, new) for new in wanted if (new.event, new.subject, new.occasion) not in there]
+            there: dict[tuple[str, str], list[str]] = {}
+            for event, subject, occasion in conn.execute(told.where(webhook_deliveries.c.webhook_id == row.id)):
+                there.setdefault((event, subject), []).append(occasion)
+            found += [(row.id, new) for new in wanted if not _is_told(new, there.get((new.event, new.subject), ()))]
     return found
+
+
+def _is_told(notice: Notice, occasions: Collection[str]) -> bool:
+    """Tell whether an address has heard of something, by the occasions of that event that it was told of."""
+    if notice.event == "study_ended":
+        # A study that loses the run that ended last has ended earlier than was told; that is no news.
+        return any(datetime.fromisoformat(occasion) >= notice.at for occasion in occasions)
+    return notice.occasion in occasions
 
 
 def _insert(

@@ -21,14 +21,16 @@ from backend.store.errors import StaleFence, WouldOverwrite
 from backend.store.files import REPLAY_FILE, list_files, register_file
 from backend.store.launches import launch
 from backend.store.metrics import MetricPoint, append_metrics, read_metrics
-from backend.store.outcomes import Succeeded
+from backend.store.outcomes import Failed, Succeeded
 from backend.store.queue import finish
 from backend.store.runs import get_run, list_events
 from backend.store.settings import Settings
 from backend.store.states import RunState
 from backend.store.storage import FileStorage, checksum
 from backend.store.tables import metadata
+from backend.store.webhooks import add_webhook, plan_deliveries
 from backend.store.workers import register_worker
+from backend.webhooks.messages import body_of
 from sldr_core.errors import BadFile
 
 SETTLED = {"runs", "attempts", "run_events", "run_files", "workers", "viewer_hosts", "viewer_sessions"}
@@ -240,3 +242,17 @@ class TestOnOneEngine:
         assert {row.name for row in list_files(db, filled.run_id)} == {"checkpoint.pt", "policy-best.pt"}
         assert all(FileStorage(unpacked).bring(row) for row in list_files(db, filled.run_id))
         db.close()
+
+    def test_what_was_told_before_the_backup_is_not_told_again(
+        self, db: Database, settings: Settings, tmp_path: Path
+    ) -> None:
+        add_webhook(db, "https://a.example/", ["run_failed"])
+        launch(db, order())
+        finish(db, claim_next(db), Failed("It broke.", retry=False))
+        assert plan_deliveries(db, body_of) == 1
+        backup(settings, tmp_path / "kept")
+        restore(settings, tmp_path / "kept", overwrite=True)
+
+        restored = open_database(settings)
+        assert plan_deliveries(restored, body_of) == 0
+        restored.close()

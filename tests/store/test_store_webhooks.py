@@ -14,7 +14,7 @@ from backend.store.errors import NotFound, Refused
 from backend.store.notices import list_notices
 from backend.store.outcomes import Failed, Succeeded
 from backend.store.queue import finish
-from backend.store.studies.launch import create_study, delete_study
+from backend.store.studies.launch import create_study, delete_study, fill_study
 from backend.store.studies.spec import StudySpec
 from backend.store.tables import webhook_deliveries
 from backend.store.webhooks import (
@@ -86,6 +86,20 @@ def test_each_address_hears_each_notice_of_its_kind_once(db: Database):
     first, second = list_webhooks(db)
     assert [(delivery.state, delivery.tries) for delivery in first.deliveries] == [("sent", 1)]
     assert second.deliveries == ()
+
+
+def test_the_end_of_a_study_is_told_once_though_the_run_that_ended_last_is_deleted(db: Database):
+    study_id = create_study(db, "pair", StudySpec(("FetchPush",), ("her",), (0, 1), "smoke")).study_id
+    add_webhook(db, "https://a.example/", ["study_ended"])
+    for _ in range(2):
+        last = claim_next(db)
+        finish(db, last, Succeeded(1.0))
+    assert plan_deliveries(db, body_of) == 1
+    act(db, Action.DELETE, last.run_id)
+    assert plan_deliveries(db, body_of) == 0
+    fill_study(db, study_id)
+    finish(db, claim_next(db), Succeeded(1.0))
+    assert plan_deliveries(db, body_of) == 1
 
 
 def test_a_delivery_is_tried_again_after_growing_pauses_and_given_up(db: Database):

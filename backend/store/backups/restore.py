@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from sqlalchemy import Connection, insert, select, update
+from sqlalchemy import Connection, String, cast, insert, select, update
 
 from backend.store.access.tables import invitations, login_sessions
 from backend.store.backups.archive import RUNS, STORE_FILE, Contents, open_archive, read_contents, store_settings
@@ -25,7 +25,15 @@ from backend.store.outcomes import HandedBack, end_attempt
 from backend.store.settings import Settings
 from backend.store.states import RunState
 from backend.store.storage import FileStorage
-from backend.store.tables import metadata, run_files, runs, viewer_hosts, viewer_sessions, workers
+from backend.store.tables import (
+    metadata,
+    run_files,
+    runs,
+    viewer_hosts,
+    viewer_sessions,
+    webhook_deliveries,
+    workers,
+)
 from backend.store.workers import list_workers
 
 FENCE_LEAP = 1000
@@ -123,11 +131,19 @@ def _settle(conn: Connection) -> int:
     for row in running:
         outcome = HandedBack("It was restored from a backup and goes on from its checkpoint.")
         end_attempt(conn, row, outcome, at, backoff_s=0.0)
-    conn.execute(update(runs).values(fence=runs.c.fence + FENCE_LEAP))
+    _leap(conn)
     conn.execute(update(workers).where(workers.c.retired_at.is_(None)).values(retired_at=at))
     for table in (viewer_sessions, viewer_hosts, login_sessions, invitations):
         conn.execute(table.delete())
     return len(running)
+
+
+def _leap(conn: Connection) -> None:
+    """Raise every fence, and with it the occasion of what was told of a failed run: it would be told once more."""
+    fence = select(runs.c.fence).where(runs.c.id == webhook_deliveries.c.subject).scalar_subquery()
+    told = (webhook_deliveries.c.event == "run_failed", webhook_deliveries.c.occasion == cast(fence, String))
+    conn.execute(update(webhook_deliveries).where(*told).values(occasion=cast(fence + FENCE_LEAP, String)))
+    conn.execute(update(runs).values(fence=runs.c.fence + FENCE_LEAP))
 
 
 def _place_files(archived: Database, placer: FilePlacer, tell: Tell) -> None:
