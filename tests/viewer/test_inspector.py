@@ -152,6 +152,11 @@ def test_what_is_shown_can_be_hidden(show):
         ("shape", {"shape": 0}, "Only the goals of chains"),
         ("starts", {"task": "FetchPush"}, "FetchStack2"),
         ("slice", {}, "No slice is shown"),
+        (
+            "place",
+            {"what": "goal", "position": [1, 1, 1], "quaternion": [0, 0, 0, 0]},
+            "a quaternion, which is not zero",
+        ),
         ("dance", {}, "it has about"),
     ],
 )

@@ -14,11 +14,11 @@ from sldr_core.config import find_task
 from sldr_core.envs import make_envs
 from sldr_core.errors import BadFile
 from sldr_core.presets import make_config
-from worker.viewer.commands import Command
+from worker.viewer.commands import BadCommand, Command
 from worker.viewer.crowd import grid_offsets
 from worker.viewer.gizmos import GoalGizmos
 from worker.viewer.judging import StreamJudge
-from worker.viewer.live import LiveShow, open_live
+from worker.viewer.live import LiveShow, object_joints, open_live, push
 from worker.viewer.page import open_page
 from worker.viewer.reports import Job
 from worker.viewer.timeline import worst_q
@@ -72,6 +72,22 @@ def test_a_push_changes_the_speed_and_no_position(show):
     joint = make_envs("FetchPush", "locomotion").model.joint("object0:joint")
     change = (after["qvel"] - before["qvel"])[joint.dofadr[0] :][:6]
     assert change == pytest.approx([0.5, 0.0, -0.25, 0, 0, 0])
+
+
+@pytest.mark.parametrize("odd", [1, -1, "first", [0], None])
+def test_an_object_that_there_is_not_is_not_pushed(show, odd):
+    with pytest.raises(BadCommand, match='"object" of the command "push" has to be a whole number from 0 to 0'):
+        show.obey(Command("push", {"velocity": [0.5, 0.0, 0.0], "object": odd}))
+
+
+@pytest.mark.parametrize(("task", "movable"), [("HandBlockRotate", 1), ("FetchStack2", 2), ("FetchTuple3", 1)])
+def test_every_object_of_a_task_can_be_pushed(task, movable):
+    envs = make_envs(task)
+    joints = object_joints(envs.model)
+    assert len(joints) == movable
+    before = envs.qvel.copy()
+    push(envs, [0.5, 0.0, 0.0], joints[-1])
+    assert np.count_nonzero(envs.qvel != before) == 1
 
 
 def test_the_end_of_an_episode_is_followed_by_another(show):

@@ -89,7 +89,28 @@ def test_a_wrong_value_is_named(command, sentence):
         tell(Transport(steps=50), **command)
 
 
-@pytest.mark.parametrize("text", ["", "nope", "[]", '{"do": 1}', '{"step": 2}'])
+@pytest.mark.parametrize("text", ["", "nope", "[]", '{"do": 1}', '{"step": 2}', "[" * 60_000])
 def test_what_is_no_command_is_refused(text):
     with pytest.raises(BadCommand, match="A command has to be"):
         read_command(text)
+
+
+@pytest.mark.parametrize(
+    "parts", ["[1e999, 0, 0]", "[NaN, 0, 0]", f"[{'9' * 400}, 0, 0]", "[1e7, 0, 0]", "[0, 0]", "3"]
+)
+def test_a_vector_of_odd_numbers_is_refused(parts):
+    command = read_command(f'{{"do": "goal", "goal": {parts}}}')
+    with pytest.raises(BadCommand, match="has to be a list of 3 numbers from"):
+        command.vector("goal", 3)
+
+
+@pytest.mark.parametrize("odd", ["NaN", "1e999", "[1]", "{}"])
+def test_an_id_that_cannot_be_sent_back_is_refused(odd):
+    with pytest.raises(BadCommand, match='"id" of the command "pause" has to be a number or a text'):
+        _ = read_command(f'{{"do": "pause", "id": {odd}}}').id
+
+
+def test_what_is_refused_is_told_in_short():
+    with pytest.raises(BadCommand) as refused:
+        read_command(f'{{"do": "goal", "goal": {"[" * 900 + "]" * 900}}}').vector("goal", 3)
+    assert len(str(refused.value)) < 200

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import reprlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -12,6 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sldr_core.errors import SldrError
+
+FARTHEST = 1e6
+"""No number of a vector is larger: what is simulated with it would overflow."""
+
+SHORTEST_QUATERNION = 1e-6
+"""One that is shorter has no direction that could be told."""
 
 
 class BadCommand(SldrError):
@@ -24,6 +31,18 @@ class Command:
 
     do: str
     values: Mapping[str, Any]
+
+    @property
+    def id(self) -> str | float | None:
+        """What the answer is to be known by, if it is asked for.
+
+        Raises:
+            BadCommand: it could not be sent back.
+        """
+        value = self.values.get("id")
+        if value is None or isinstance(value, str) or (isinstance(value, int | float) and abs(value) < math.inf):
+            return value
+        raise self._wrong("id", "a number or a text")
 
     def number(self, name: str, low: float = -math.inf, high: float = math.inf) -> float:
         """Return a number between two limits.
@@ -70,18 +89,29 @@ class Command:
         return value
 
     def vector(self, name: str, size: int) -> NDArray[np.float64]:
-        """Return `[size]` finite numbers.
+        """Return `[size]` numbers.
 
         Raises:
             BadCommand: it is missing or something else.
         """
         value = self._get(name)
         is_numbers = isinstance(value, list) and all(
-            isinstance(part, int | float) and math.isfinite(part) for part in value
+            isinstance(part, int | float) and abs(part) <= FARTHEST for part in value
         )
         if not is_numbers or len(value) != size:
-            raise self._wrong(name, f"a list of {size} numbers")
+            raise self._wrong(name, f"a list of {size} numbers from {-FARTHEST:g} to {FARTHEST:g}")
         return np.asarray(value, dtype=np.float64)
+
+    def quaternion(self, name: str) -> NDArray[np.float64]:
+        """Return a quaternion, `[4]`, of any length.
+
+        Raises:
+            BadCommand: it is missing, something else, or has no direction.
+        """
+        value = self.vector(name, 4)
+        if np.linalg.norm(value) < SHORTEST_QUATERNION:
+            raise self._wrong(name, "a quaternion, which is not zero")
+        return value
 
     def _get(self, name: str) -> Any:
         if name not in self.values:
@@ -89,7 +119,8 @@ class Command:
         return self.values[name]
 
     def _wrong(self, name: str, wanted: str) -> BadCommand:
-        return BadCommand(f'"{name}" of the command "{self.do}" has to be {wanted}, got {self.values[name]!r}.')
+        got = reprlib.repr(self.values[name])
+        return BadCommand(f'"{name}" of the command "{self.do}" has to be {wanted}, got {got}.')
 
 
 def read_command(text: str | bytes) -> Command:
@@ -100,7 +131,7 @@ def read_command(text: str | bytes) -> Command:
     """
     try:
         values = json.loads(text)
-    except ValueError as err:
+    except (ValueError, RecursionError) as err:
         raise BadCommand(f"A command has to be JSON: {err}.") from err
     if not isinstance(values, dict) or not isinstance(values.get("do"), str):
         raise BadCommand('A command has to be an object whose "do" says what to do.')

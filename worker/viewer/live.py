@@ -6,6 +6,7 @@ One policy in one, four or nine episodes side by side, or two policies from the 
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -34,6 +35,8 @@ VERBS = ("new", "goal", "push", "gizmo", "timeline")
 
 HARDEST_PUSH = 3.0
 """Greatest change of an object's speed along one axis [m/s]."""
+
+_OBJECT_JOINT = re.compile(r"object\d*:joint")
 
 
 def open_live(server: viser.ViserServer, job: Job) -> LiveShow:
@@ -110,7 +113,9 @@ class LiveShow:
                 self._branch(lambda envs: envs.set_goal(goal))
             case "push":
                 change = command.vector("velocity", 3).clip(-HARDEST_PUSH, HARDEST_PUSH)
-                self._branch(lambda envs: push(envs, change, command.values.get("object", 0)))
+                joints = object_joints(envs.model)
+                pushed = command.integer("object", 0, len(joints) - 1) if "object" in command.values else 0
+                self._branch(lambda envs: push(envs, change, joints[pushed]))
             case "gizmo":
                 self._gizmos.visible = command.flag("on")
             case "timeline":
@@ -180,10 +185,14 @@ def make_show_envs(policy: Policy, lanes: int, seed: int) -> Envs:
     )
 
 
-def push(envs: Envs, velocity: ArrayLike, index: int = 0) -> None:
-    """Give an object a sudden change of velocity [m/s], `[3]`, in every lane."""
-    numbered = mujoco.mj_name2id(envs.model, mujoco.mjtObj.mjOBJ_JOINT, f"object{index}:joint")
-    joint = numbered if numbered >= 0 else envs.model.joint("object:joint").id
+def object_joints(model: mujoco.MjModel) -> list[int]:
+    """Return the joints by which objects move freely, in their order; a chain moves by its first block's."""
+    free = np.flatnonzero(model.jnt_type == mujoco.mjtJoint.mjJNT_FREE).tolist()
+    return [joint for joint in free if _OBJECT_JOINT.fullmatch(model.joint(joint).name)]
+
+
+def push(envs: Envs, velocity: ArrayLike, joint: int) -> None:
+    """Give the object that moves by a joint a sudden change of velocity [m/s], `[3]`, in every lane."""
     first = int(envs.model.jnt_dofadr[joint])
     envs.qvel[:, first : first + 3] += np.asarray(velocity)
     envs.simulation.forward()

@@ -59,7 +59,7 @@ class Session:
         reply: dict[str, Any] = {}
         try:
             command = read_command(asked.text)
-            reply["id"] = command.values.get("id")
+            reply["id"] = command.id
             if command.do in transport.VERBS:
                 self.show.transport.obey(command)
                 answer = None

@@ -172,7 +172,7 @@ class InspectorShow:
     def _place(self, command: Command) -> Answer:
         put = {"start": self._inspection.put_object, "goal": self._inspection.put_goal}
         what = command.choice("what", tuple(put))
-        position, quaternion = command.vector("position", 3), command.vector("quaternion", 4)
+        position, quaternion = command.vector("position", 3), command.quaternion("quaternion")
         self._show_from_start(lambda: put[what](position, quaternion))
 
     def _put_shape(self, command: Command) -> Answer:
