@@ -55,6 +55,12 @@ def test_a_template_can_be_changed(capsys: pytest.CaptureFixture[str], db: Datab
     assert (study.spec.tasks, study.spec.seeds, study.spec.size) == (("FetchStack2", "FetchStack3"), (3,), 14)
 
 
+def test_a_setting_is_laid_over_those_of_a_template(capsys: pytest.CaptureFixture[str], db: Database):
+    run(capsys, "launch", "--template", "two-minutes", "--set", "loop.batch_size=64", "--study", "small")
+    (study,) = list_studies(db, 10)
+    assert (study.spec.overrides["loop"]["epochs"], study.spec.overrides["loop"]["batch_size"]) == (5, 64)
+
+
 def test_runs_are_listed_for_people_and_for_programs(capsys: pytest.CaptureFixture[str], db: Database):
     run(capsys, *ONE)
     _, lines, _ = run(capsys, "runs", "--phase", "manipulation", "--limit", "1")

@@ -17,6 +17,7 @@ from backend.client.waiting import wait_for_runs
 from backend.store.studies.templates import TEMPLATES, Template
 from sldr_core.config import LOCOMOTION_METHOD, Phase, TrainConfig
 from sldr_core.errors import InvalidConfig, UnknownName
+from sldr_core.presets import lay_over
 from worker.cli.seeds import parse_seeds
 from worker.cli.service import Order, Server, Service, open_service
 from worker.cli.settings import parse_settings
@@ -143,7 +144,7 @@ def _study(given: Arguments) -> tuple[str, StudySpec]:
         "methods": list(given.method),
         "seeds": None if given.seeds is None else list(parse_seeds(given.seeds)),
         "preset": given.preset,
-        "overrides": parse_settings(given.settings),
+        "overrides": lay_over(spec.overrides, parse_settings(given.settings)),
         "locomotion": given.locomotion,
         "variants": [_variant(name, overrides) for name, overrides in given.variant],
     }
