@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
@@ -17,6 +18,7 @@ from backend.store.actions import Action, act
 from backend.store.blocks import EMPTY, put_blocks
 from backend.store.claims import Claim
 from backend.store.database import Database
+from backend.store.errors import FilesUnavailable
 from backend.store.files import REPLAY_FILE, REPLAY_LIST, list_files, register_file
 from backend.store.labels import change_tags
 from backend.store.launches import launch
@@ -27,7 +29,7 @@ from backend.store.retention.plan import find_protected, is_old_enough, plan_ret
 from backend.store.retention.removal import apply_retention, finish_removals
 from backend.store.retention.rule import Removable, Rule, kind_of
 from backend.store.settings import Settings
-from backend.store.storage import FileStorage, checksum
+from backend.store.storage import FileStorage, SharedPlace, checksum
 from backend.store.tables import runs
 
 EVERYTHING = Rule(frozenset(Removable), 0)
@@ -174,8 +176,7 @@ def test_what_was_marked_stays_if_its_run_began_again(
     assert names(directory) == set(WRITTEN) | set(UNREGISTERED)
 
 
-def test_files_at_a_shared_place_go_with_their_blocks_and_copies(db: Database, settings: Settings, tmp_path: Path):
-    shared = replace(settings, files_url=f"file://{tmp_path}/shared")
+def ended_at_a_shared_place(shared: Settings, db: Database) -> tuple[str, Path]:
     storage = FileStorage(shared)
     assert storage.shared is not None
     held = claimed_run(db)
@@ -186,10 +187,55 @@ def test_files_at_a_shared_place_go_with_their_blocks_and_copies(db: Database, s
     place = storage.keep(held.run_id, 1, directory / REPLAY_LIST, digest)
     register_file(db, held, REPLAY_LIST, "replay", place, (directory / REPLAY_LIST).stat().st_size, digest)
     finish(db, held, Succeeded(0.9))
-    apply_retention(db, shared, plan_retention(db, shared, EVERYTHING))
-    left = {path.rpartition("/")[2].partition("-")[0] for path in storage.shared.paths_below("runs")}
-    assert left == {"policy", "locomotion", "thumbnail"}
+    return held.run_id, directory
+
+
+def kinds_left(shared: Settings) -> set[str]:
+    """Return the first word of the name of each file at the shared place; the name of a block is its checksum."""
+    place = FileStorage(shared).shared
+    assert place is not None
+    return {path.rpartition("/")[2].partition("-")[0] for path in place.paths_below("runs")}
+
+
+@pytest.fixture
+def shared(settings: Settings, tmp_path: Path) -> Settings:
+    return replace(settings, files_url=f"file://{tmp_path}/shared")
+
+
+def test_files_at_a_shared_place_go_with_their_blocks_and_copies(db: Database, shared: Settings):
+    _, directory = ended_at_a_shared_place(shared, db)
+    plan = plan_retention(db, shared, EVERYTHING)
+    removed = apply_retention(db, shared, plan)
+    assert kinds_left(shared) == {"policy", "locomotion", "thumbnail"}
     assert names(directory) == STAYING | {"log.txt", ".attempt"}
+    assert (removed.files, removed.size) == (len(plan.runs[0].files), plan.runs[0].size)
+
+
+def test_nothing_is_left_of_what_was_looked_at_from_another_machine(db: Database, shared: Settings):
+    run_id, directory = ended_at_a_shared_place(shared, db)
+    shutil.rmtree(directory)
+    apply_retention(db, shared, plan_retention(db, shared, REPLAY))
+    assert "replay" not in kinds_left(shared)
+    assert not list((shared.fetched_directory / run_id).iterdir())
+
+
+def test_a_replay_file_whose_blocks_are_not_known_stays_whole(
+    db: Database, shared: Settings, monkeypatch: pytest.MonkeyPatch
+):
+    _, directory = ended_at_a_shared_place(shared, db)
+    shutil.rmtree(directory)  # another machine has trained it
+    before = kinds_left(shared)
+
+    def fail(*_: object) -> None:
+        raise FilesUnavailable("Slow down.")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(SharedPlace, "get", fail)
+        assert plan_retention(db, shared, REPLAY).runs == []
+        assert apply_retention(db, shared, plan_retention(db, shared, REPLAY)).files == 0
+    assert kinds_left(shared) == before
+    apply_retention(db, shared, plan_retention(db, shared, REPLAY))
+    assert kinds_left(shared) == {name.partition("-")[0].partition(".")[0] for name in WRITTEN} - {"checkpoint"}
 
 
 def test_no_mark_leads_out_of_the_data_directory(tmp_path: Path):

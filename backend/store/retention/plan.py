@@ -2,22 +2,28 @@
 
 from __future__ import annotations
 
+import logging
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime, timedelta
 from pathlib import Path
 from typing import Literal
 
 from sqlalchemy import Connection, select
 
+from backend.store.blocks import read_block_list
 from backend.store.database import Database, current_time
-from backend.store.files import FileRow
+from backend.store.errors import FilesUnavailable
+from backend.store.files import REPLAY_LIST, FileRow
 from backend.store.retention.rule import KEEP_TAGS, Removable, Rule, kind_of, unregistered
 from backend.store.settings import Settings
 from backend.store.states import ENDED
 from backend.store.storage import FileStorage
 from backend.store.tables import AnyRow, run_files, run_needs, run_tags, runs
+from sldr_core.errors import SldrError
+
+log = logging.getLogger(__name__)
 
 Spared = Literal["young", "kept", "needed"]
 """Why an ended run loses nothing: it ended too lately, is tagged to be kept, or others learn from it."""
@@ -82,13 +88,15 @@ SHARED = "shared:"
 
 def plan_retention(db: Database, settings: Settings, rule: Rule) -> RetentionPlan:
     """Return what a rule would remove now."""
-    shared = FileStorage(settings).shared is not None
     with db.read() as conn:
         at = current_time(conn)
         ended = conn.execute(select(runs).where(runs.c.state.in_(ENDED)).order_by(runs.c.number)).all()
         protected = find_protected(conn)
         old = [row for row in ended if is_old_enough(row.ended_at, rule, at)]
-        shares = [_share(conn, settings, row, rule, shared) for row in old if row.id not in protected]
+        registered = {row.id: _registered(conn, row.id) for row in old if row.id not in protected}
+    # Not in the transaction, which must not stand still while the shared place answers.
+    storage = FileStorage(settings)
+    shares = [_share(settings, storage, row, registered[row.id], rule) for row in old if row.id in registered]
     why = Counter(protected[row.id] for row in old if row.id in protected)
     spared: dict[Spared, int] = {"young": len(ended) - len(old), "kept": why["kept"], "needed": why["needed"]}
     found = [share for share in shares if share.files]
@@ -121,9 +129,21 @@ def is_old_enough(ended_at: datetime | None, rule: Rule, at: datetime) -> bool:
     return ended_at is not None and ended_at <= at - timedelta(days=rule.older_than_days)
 
 
-def _share(conn: Connection, settings: Settings, row: AnyRow, rule: Rule, shared: bool) -> RunShare:
-    registered = conn.execute(select(run_files).where(run_files.c.run_id == row.id).order_by(run_files.c.name))
-    files = [doomed for file in registered.mappings() for doomed in _places(settings, FileRow(**file), rule, shared)]
+def _registered(conn: Connection, run_id: str) -> list[FileRow]:
+    query = select(run_files).where(run_files.c.run_id == run_id).order_by(run_files.c.name)
+    return [FileRow(**row) for row in conn.execute(query).mappings()]
+
+
+def _share(
+    settings: Settings, storage: FileStorage, row: AnyRow, registered: Sequence[FileRow], rule: Rule
+) -> RunShare:
+    try:
+        blocks = _blocks(storage, registered, rule)
+    except (SldrError, FilesUnavailable) as err:
+        # Without the list, nobody could ever remove the blocks.
+        log.warning("The replay file of run %s stays: %s", row.id, err)
+        blocks, rule = [], replace(rule, kinds=rule.kinds - {Removable.REPLAY})
+    files = [doomed for file in registered for doomed in _places(settings, file, rule, storage.shared is not None)]
     left = (_left(settings, row.id, name) for name in unregistered(rule))
     return RunShare(
         run_id=row.id,
@@ -134,8 +154,26 @@ def _share(conn: Connection, settings: Settings, row: AnyRow, rule: Rule, shared
         state=row.state,
         ended_at=row.ended_at,
         fence=row.fence,
-        files=(*files, *(doomed for doomed in left if doomed is not None)),
+        files=(*files, *(doomed for doomed in left if doomed is not None), *blocks),
     )
+
+
+def _blocks(storage: FileStorage, registered: Sequence[FileRow], rule: Rule) -> list[Doomed]:
+    """Return the blocks that a run's replay file is kept as at the shared place, if the file goes.
+
+    Raises:
+        BadFile: the list of them is damaged.
+        FileGone: it is gone.
+        FilesUnavailable: the shared place cannot be read just now.
+    """
+    if storage.shared is None or Removable.REPLAY not in rule.kinds:
+        return []
+    found = [read_block_list(storage.bring(file)) for file in registered if file.name == REPLAY_LIST]
+    return [
+        Doomed(Removable.REPLAY, "block", f"{SHARED}{path}", blocks.block_size, is_registered=False)
+        for blocks in found
+        for path in sorted(blocks.paths)
+    ]
 
 
 def _places(settings: Settings, row: FileRow, rule: Rule, shared: bool) -> Sequence[Doomed]:

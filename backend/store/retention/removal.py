@@ -13,17 +13,14 @@ from pathlib import Path
 
 from sqlalchemy import Connection, delete, insert, select
 
-from backend.store.blocks import read_block_list
 from backend.store.database import Database, current_time
 from backend.store.errors import FilesUnavailable
-from backend.store.files import REPLAY_LIST, find_file
-from backend.store.retention.plan import SHARED, Doomed, RetentionPlan, RunShare, find_protected, is_old_enough
+from backend.store.retention.plan import SHARED, RetentionPlan, RunShare, find_protected, is_old_enough
 from backend.store.retention.rule import Rule
 from backend.store.settings import Settings
 from backend.store.states import ENDED
 from backend.store.storage import FileStorage
 from backend.store.tables import episodes, file_removals, media_jobs, run_files, runs
-from sldr_core.errors import SldrError
 
 log = logging.getLogger(__name__)
 
@@ -43,10 +40,8 @@ class Removed:
 
 def apply_retention(db: Database, settings: Settings, plan: RetentionPlan) -> Removed:
     """Remove what a plan names, and what an earlier removal has left; runs that moved on since keep everything."""
-    storage = FileStorage(settings)
     for share in plan.runs:
-        blocks = _blocks(db, storage, share)
-        _mark(db, plan.rule, share, blocks)
+        _mark(db, plan.rule, share)
     return finish_removals(db, settings)
 
 
@@ -61,7 +56,7 @@ def finish_removals(db: Database, settings: Settings) -> Removed:
     return Removed(runs=len(run_ids), files=len(gone), size=sum(gone), left=left)
 
 
-def _mark(db: Database, rule: Rule, share: RunShare, blocks: Sequence[Doomed]) -> None:
+def _mark(db: Database, rule: Rule, share: RunShare) -> None:
     """Take away the rows of a run's files and note where their bytes lie; nothing if the run has moved on."""
     with db.write() as conn:
         row = conn.execute(select(runs).where(runs.c.id == share.run_id).with_for_update()).one()
@@ -78,7 +73,7 @@ def _mark(db: Database, rule: Rule, share: RunShare, blocks: Sequence[Doomed]) -
         there = set(conn.execute(select(file_removals.c.path).where(file_removals.c.run_id == row.id)).scalars())
         marks = [
             {"run_id": row.id, "path": file.place, "size": file.size, "fence": row.fence, "marked_at": at}
-            for file in (*share.files, *blocks)
+            for file in share.files
             if file.place not in there
         ]
         if marks:
@@ -127,22 +122,6 @@ def _unlink(home: Path, place: str) -> bool:
         return False
     path.unlink(missing_ok=True)
     return True
-
-
-def _blocks(db: Database, storage: FileStorage, share: RunShare) -> list[Doomed]:
-    """Return the blocks that a run's replay file is kept as at the shared place, if the file goes."""
-    lists = [file for file in share.files if file.name == REPLAY_LIST and file.is_registered]
-    if storage.shared is None or not lists:
-        return []
-    try:
-        found = read_block_list(storage.bring(find_file(db, share.run_id, REPLAY_LIST)))
-    except (SldrError, FilesUnavailable) as err:
-        log.warning("The replay file of run %s stays: %s", share.run_id, err)
-        return []
-    size = found.block_size
-    return [
-        Doomed(lists[0].kind, "block", f"{SHARED}{path}", size, is_registered=False) for path in sorted(found.paths)
-    ]
 
 
 @dataclass(frozen=True)
