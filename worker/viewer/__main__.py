@@ -93,7 +93,7 @@ def _show_one(policy: Path, port: int) -> None:
     from worker.viewer.reports import Job
     from worker.viewer.session import open_session, watch
 
-    session = open_session(Job("alone", {"kind": "live"}, {"policy": (policy,)}), port)
+    session = open_session(Job("alone", {"kind": "live"}, {"policy": (policy,)}), port, is_alone=True)
     add_panel(session.server, session.control.ask)
     print(f"{session.show.message} http://127.0.0.1:{session.port}/", flush=True)
     watch(session)

@@ -10,6 +10,7 @@ import viser
 
 from worker.viewer.camera import Camera
 from worker.viewer.dress import LAMP_DIRECTION
+from worker.viewer.origins import refusing_other_pages
 
 HOST = "127.0.0.1"
 
@@ -25,12 +26,17 @@ LAMP_LIGHT = 1.4
 _LAMP_POSITION = (-4.0 * LAMP_DIRECTION[0], -4.0 * LAMP_DIRECTION[1], -4.0 * LAMP_DIRECTION[2])
 
 
-def open_page(port: int = 0) -> viser.ViserServer:
+def open_page(port: int = 0, is_alone: bool = False) -> viser.ViserServer:
     """Start a Viser server on this machine alone, lit and empty; port 0 takes a free one.
 
     The page is dark where its address says `?darkMode`.
+
+    Args:
+        port: where it listens.
+        is_alone: whether browsers open the page here, and not through the proxy.
     """
-    with contextlib.redirect_stdout(io.StringIO()):  # Viser prints a banner that nobody asked for.
+    banner = contextlib.redirect_stdout(io.StringIO())  # Viser prints one that nobody asked for.
+    with banner, refusing_other_pages(allow_own=is_alone):
         server = viser.ViserServer(host=HOST, port=port, verbose=False)
     _refuse_sharing(server)
     server.gui.configure_theme(show_logo=False, show_share_button=False, control_width="small")

@@ -76,13 +76,18 @@ class Session:
             asked.answer({**reply, "answer": answer or {}})
 
 
-def open_session(job: Job, port: int = 0) -> Session:
+def open_session(job: Job, port: int = 0, is_alone: bool = False) -> Session:
     """Open the view that a job asks for.
+
+    Args:
+        job: what to show.
+        port: where its page is served (0: a free one).
+        is_alone: whether browsers open the page there, and not through the proxy.
 
     Raises:
         SldrError: what it needs cannot be used.
     """
-    server = open_page(port)
+    server = open_page(port, is_alone)
     show = open_show(server, job)
     show.advance(0.0)
     control = ControlChannel()
