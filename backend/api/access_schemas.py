@@ -105,7 +105,9 @@ class NewToken(Strict):
 
     name: TokenName
     role: Role = Field(description="What it may do at most; never more than its owner.")
-    days: Annotated[int, Field(ge=1, le=MOST_DAYS)] | None = Field(90, description="Its life; null: until revoked.")
+    days: Annotated[int, Field(ge=1, le=MOST_DAYS)] | None = Field(
+        90, description="Its life; null: until revoked. One that a token makes ends with that at the latest."
+    )
 
 
 class TokenInfo(Strict):

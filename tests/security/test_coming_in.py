@@ -6,8 +6,9 @@ import json
 import logging
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
+import httpx
 import pytest
 from argon2 import PasswordHasher, extract_parameters
 from guarded_api import CHEAP, PASSWORD, Guarded
@@ -141,6 +142,32 @@ def test_a_token_may_do_what_its_role_says(api: Guarded):
         assert program.post("/api/views", json={"name": "x", "search": ""}).status_code == 403
         browser.delete(f"/api/account/tokens/{made['token']['id']}")
         assert program.get("/api/runs").status_code == 401
+
+
+def token_of(client: httpx.Client, role: str, days: int | None) -> tuple[dict[str, Any], str]:
+    made = client.post("/api/account/tokens", json={"name": "made", "role": role, "days": days}).json()
+    return made["token"], made["secret"]
+
+
+@pytest.mark.parametrize("days", [None, 300])
+def test_a_token_that_a_token_makes_ends_with_it(api: Guarded, days: int | None):
+    short, secret = token_of(api.sign_in("admin"), "admin", 1)
+    with new_client(api.address, secret) as program:
+        made, _ = token_of(program, "viewer", days)
+    assert made["expires_at"] == short["expires_at"]
+
+
+def test_a_program_that_may_do_less_than_its_owner_takes_nothing_away_from_them(api: Guarded):
+    browser = api.sign_in("admin")
+    strong, _ = token_of(browser, "admin", 1)
+    weak, secret = token_of(browser, "operator", 1)
+    [session, *_] = browser.get("/api/account/sessions").json()["sessions"]
+    with new_client(api.address, secret) as program:
+        for address in (f"tokens/{strong['id']}", f"sessions/{session['id']}"):
+            assert program.delete(f"/api/account/{address}").status_code == 403
+        assert program.delete(f"/api/account/tokens/{weak['id']}").status_code == 204
+    assert browser.get("/api/runs").status_code == 200
+    assert browser.delete(f"/api/account/tokens/{strong['id']}").status_code == 204
 
 
 def test_what_was_changed_stands_in_the_log_with_who_did_it(api: Guarded):

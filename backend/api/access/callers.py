@@ -16,7 +16,7 @@ from backend.store.access import api_tokens, login_sessions
 from backend.store.access.accounts import Account
 from backend.store.access.entry import LOCAL_NAME, AccessMode
 from backend.store.access.local_token import load_local_token
-from backend.store.access.roles import Role, lesser
+from backend.store.access.roles import Role, allows, lesser
 from backend.store.database import Database
 from backend.store.settings import Settings
 
@@ -45,6 +45,10 @@ class Caller:
     """None: whoever came with the token of a server on loopback."""
     session_id: str | None
     """The browser's session; None: a program."""
+    token: api_tokens.ApiToken | None = None
+    """What a program has shown; None: a browser, or a program with the token of a server on loopback."""
+    is_narrow: bool = False
+    """Whether it is a program that may do less than its owner."""
 
 
 TICKET_HOLDER = Caller("a ticket", "viewer", None, None)
@@ -95,8 +99,9 @@ def _find_by_token(access: Access, db: Database, shown: str) -> Caller | Refusal
         return TOKEN_VOID
     token, account = found
     if account is None:
-        return Caller(LOCAL_NAME, token.role, None, None)
-    return Caller(account.name, lesser(token.role, account.role), account.id, None)
+        return Caller(LOCAL_NAME, token.role, None, None, token, is_narrow=token.role != "admin")
+    is_narrow = not allows(token.role, account.role)
+    return Caller(account.name, lesser(token.role, account.role), account.id, None, token, is_narrow)
 
 
 def _find_by_session(access: Access, db: Database, secret: str) -> Caller | Refusal:

@@ -72,6 +72,8 @@ def list_own_sessions(caller: KnownCaller, store: Store) -> Sessions:
 @needs("viewer", audited=True)
 def end_own_session(session_id: str, caller: KnownCaller, store: Store) -> None:
     """Sign a browser out of one's account."""
+    if caller.is_narrow:
+        raise ApiError(403, "This token may do less than its owner, so it ends no session; sign in to end one.")
     login_sessions.end_session(store, caller.account_id, session_id)
 
 
@@ -89,7 +91,8 @@ def create_own_token(wish: NewToken, caller: KnownCaller, store: Store) -> Creat
     if not allows(caller.role, wish.role):
         raise ApiError(403, f"A token may not do more than you: choose {caller.role} or less.", "role")
     lifetime = None if wish.days is None else timedelta(days=wish.days)
-    token, secret = api_tokens.create_token(store, caller.account_id, wish.name.strip(), wish.role, lifetime)
+    latest = None if caller.token is None else caller.token.expires_at
+    token, secret = api_tokens.create_token(store, caller.account_id, wish.name.strip(), wish.role, lifetime, latest)
     return CreatedToken(token=_token(token), secret=secret)
 
 
@@ -97,6 +100,8 @@ def create_own_token(wish: NewToken, caller: KnownCaller, store: Store) -> Creat
 @needs("viewer", audited=True)
 def revoke_own_token(token_id: str, caller: KnownCaller, store: Store) -> None:
     """Let a token open nothing any more."""
+    if caller.is_narrow and (caller.token is None or token_id != caller.token.id):
+        raise ApiError(403, "This token may do less than its owner, so it revokes only itself; sign in for others.")
     api_tokens.revoke_token(store, caller.account_id, token_id)
 
 

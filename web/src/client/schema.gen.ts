@@ -2657,7 +2657,7 @@ export interface components {
         NewToken: {
             /**
              * Days
-             * @description Its life; null: until revoked.
+             * @description Its life; null: until revoked. One that a token makes ends with that at the latest.
              * @default 90
              */
             days: number | null;
