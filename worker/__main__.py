@@ -8,12 +8,12 @@ import sys
 
 from backend.logs import load_style, start_logging
 from backend.store.database import Database, open_database
-from backend.store.errors import StoreUnavailable
 from backend.store.settings import Settings, load_settings
-from sldr_core.errors import InvalidConfig, SldrError
+from sldr_core.errors import InvalidConfig
 from worker.executors.local import LocalExecutor
 from worker.executors.ray_needs import CORES_OF_A_RUN
 from worker.machine import describe_machine, find_gpus
+from worker.sentences import BAD_INPUT, sentence_of
 from worker.supervisor import Supervisor
 
 
@@ -26,9 +26,12 @@ def main() -> int:
         db = open_database(settings)
         make = {"local": _work_here, "ray": _work_on_cluster}[options.executor]
         supervisor = make(options, db, settings)
-    except (SldrError, StoreUnavailable) as err:
-        print(err, file=sys.stderr)
-        return 2
+    except Exception as err:
+        sentence = sentence_of(err)
+        if sentence is None:
+            raise
+        print(sentence, file=sys.stderr)
+        return BAD_INPUT
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda *_: supervisor.ask_to_stop())
     supervisor.run()

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Sequence
 from importlib import import_module
 from importlib.metadata import version
 
-from backend.store.errors import StoreUnavailable
-from sldr_core.errors import SldrError, UnknownName
+from sldr_core.errors import UnknownName
+from worker.sentences import BAD_INPUT, sentence_of
 
 COMMANDS = {
     "serve": "Serve the page in the browser, with a worker and the 3D viewer.",
@@ -35,20 +36,32 @@ COMMANDS = {
 MODULES = {"import": "import_study"}
 """Commands whose name no module can have."""
 
-BAD_INPUT = 2
-"""Exit code for whatever the user can put right."""
+READER_GONE = 141
+"""Exit code when nobody reads what is printed any more, as behind `| head`; a shell's for the same."""
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run one command and exit with its code; what the user can put right is told in one sentence."""
     words = list(sys.argv[1:] if arguments is None else arguments)
+    try:
+        try:
+            sys.exit(_answer(words))
+        finally:
+            sys.stdout.flush()
+    except BrokenPipeError:
+        # What is still held back would be tried, and complained about, once more at the very end.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(READER_GONE)
+
+
+def _answer(words: list[str]) -> int:
     if not words or words[0] in ("-h", "--help"):
         print(_help())
-        sys.exit(0)
+        return 0
     if words[0] == "--version":
         print(f"sldr {version('sldr')}")
-        sys.exit(0)
-    sys.exit(_run(words[0], words[1:]))
+        return 0
+    return _run(words[0], words[1:])
 
 
 def _run(command: str, arguments: list[str]) -> int:
@@ -56,21 +69,14 @@ def _run(command: str, arguments: list[str]) -> int:
         if command not in COMMANDS:
             raise UnknownName("command", command, COMMANDS)
         return import_module(f"worker.cli.commands.{MODULES.get(command, command)}").main(arguments)
-    except SldrError as error:
-        return _fail(str(error))
-    except StoreUnavailable as error:
-        return _fail(str(error))
-    except OSError as error:
-        if error.filename is None:
-            raise
-        return _fail(f"{error.filename}: {error.strerror}.")
     except KeyboardInterrupt:
         return 130
-
-
-def _fail(sentence: str) -> int:
-    print(f"sldr: {sentence}", file=sys.stderr)
-    return BAD_INPUT
+    except Exception as error:
+        sentence = sentence_of(error)
+        if sentence is None:
+            raise
+        print(f"sldr: {sentence}", file=sys.stderr)
+        return BAD_INPUT
 
 
 def _help() -> str:

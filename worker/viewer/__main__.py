@@ -15,8 +15,9 @@ from backend.logs import load_style, start_logging
 from backend.store.database import open_database
 from backend.store.errors import StoreUnavailable
 from backend.store.settings import Settings, load_settings
-from sldr_core.errors import SldrError
+from sldr_core.errors import InvalidConfig
 from worker.media.host import MediaHost
+from worker.sentences import BAD_INPUT, sentence_of
 from worker.viewer.host import Host
 from worker.viewer.process import serve_session
 from worker.viewer.warming import keep_warm
@@ -27,27 +28,34 @@ POLL_S = 0.2
 STORE_RETRY_S = 2.0
 """Time to wait after the store could not be used [s]."""
 
+MOST_PORTS = 65535
+
 log = logging.getLogger("sldr.viewer")
 
 
 def main() -> int:
-    """Host sessions until SIGTERM or Ctrl-C; a user's error is one sentence and exit code 2."""
+    """Host sessions until SIGTERM or Ctrl-C; what the user can put right is told in one sentence."""
     parser = argparse.ArgumentParser(prog="python -m worker.viewer", description=__doc__)
     parser.add_argument("--policy", type=Path, metavar="FILE", help="show this policy, without the service")
     parser.add_argument("--port", type=int, default=0, help="port for --policy (0: a free one)")
     options = parser.parse_args()
     settings = load_settings()
     try:
+        if not 0 <= options.port <= MOST_PORTS:
+            raise InvalidConfig({"port": f"it must be between 0 and {MOST_PORTS}, got {options.port}"})
         start_logging("viewer", settings.logs_directory, load_style())
         if options.policy is not None:
             _show_one(options.policy, options.port)
         else:
             host_sessions(settings)
-    except SldrError as err:
-        print(err, file=sys.stderr)
-        return 2
     except KeyboardInterrupt:
         return 0
+    except Exception as err:
+        sentence = sentence_of(err)
+        if sentence is None:
+            raise
+        print(sentence, file=sys.stderr)
+        return BAD_INPUT
     return 0
 
 

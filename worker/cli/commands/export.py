@@ -26,6 +26,7 @@ from backend.store.settings import load_settings
 from backend.store.study_files.chosen_files import EpisodeChoice
 from backend.store.study_files.packing import pack_study
 from sldr_core.config import Phase
+from sldr_core.disk import write_atomically
 from sldr_core.errors import InvalidConfig, UnknownName
 from worker.cli.commands.export_from_server import (
     fetch_bundle,
@@ -270,8 +271,12 @@ def _figure_file(content: CurveComparison | BestModels, form: str, width: Width)
 
 def _write(out: Path, content: bytes) -> int:
     _check_place(out)
-    out.write_bytes(content)
+    write_atomically(out, lambda path: _fill(path, content))
     return _tell(out)
+
+
+def _fill(path: Path, content: bytes) -> None:
+    path.write_bytes(content)
 
 
 def _check_place(out: Path) -> None:
