@@ -19,7 +19,9 @@ from backend.client.errors import BadAnswer, NotReachable, Problem, error_for
 Record = TypeVar("Record")
 
 ANSWER_S = 60.0
-"""How long an answer may take; drawing figures of many runs takes long [s]."""
+"""How long an answer may take [s]."""
+DRAWN_S = 300.0
+"""How long figures may take: the service draws for two minutes at most, when others let it [s]."""
 CONNECT_S = 10.0
 """How long it may take until somebody answers at all [s]."""
 TRIES = 4
@@ -61,12 +63,12 @@ class Connection:
         return self._read(kind, self._ask(path, query), part)
 
     def ask_bytes(self, path: str, **query: Any) -> bytes:
-        """Return the body that a GET answers.
+        """Return the body that a GET answers: figures, which take long to draw and are therefore asked for once.
 
         Raises:
             ClientError: it was not answered.
         """
-        return self._ask(path, query).content
+        return self._ask(path, query, DRAWN_S, again_if_slow=False).content
 
     def tell(self, kind: type[Record], method: str, path: str, body: Any = None, part: str | None = None) -> Record:
         """Send a wish, once, and return the answer read as a record; `None` for a wish that has no answer.
@@ -102,18 +104,20 @@ class Connection:
         finally:
             temporary.unlink(missing_ok=True)
 
-    def _ask(self, path: str, query: Mapping[str, Any]) -> httpx.Response:
+    def _ask(
+        self, path: str, query: Mapping[str, Any], answer_s: float = ANSWER_S, again_if_slow: bool = True
+    ) -> httpx.Response:
         given = {name: value for name, value in query.items() if value is not None}
         for turn in range(TRIES):
             is_last = turn == TRIES - 1
             try:
                 with self._speaking():
-                    answer = self._http.get(path, params=given)
+                    answer = self._http.get(path, params=given, timeout=httpx.Timeout(answer_s, connect=CONNECT_S))
                 if answer.status_code != AWAY or is_last:
                     _check(answer)
                     return answer
-            except NotReachable:
-                if is_last:
+            except NotReachable as err:
+                if is_last or (not again_if_slow and isinstance(err.__cause__, httpx.ReadTimeout)):
                     raise
             self._pause(FIRST_PAUSE_S * 2**turn)
         raise AssertionError("the last turn answers or raises")

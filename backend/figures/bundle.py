@@ -42,6 +42,9 @@ class Bundle:
     anonymous: bool
     """Whether to leave out whatever may tell who made it and where."""
     width: Width = "double"
+    log_x: bool = False
+    """Whether curves are drawn over a logarithmic axis."""
+    log_y: bool = False
 
 
 def make_bundle(bundle: Bundle) -> bytes:
@@ -52,7 +55,7 @@ def make_bundle(bundle: Bundle) -> bytes:
     """
     names = _run_names(bundle)
     drawings = {
-        f"figures/{name}.{format}": Drawing(content, format, bundle.width)
+        f"figures/{name}.{format}": Drawing(content, format, bundle.width, bundle.log_x, bundle.log_y)
         for name, content in (("curves", bundle.curves), ("best", bundle.best))
         for format in FORMATS
     }

@@ -10,6 +10,8 @@ import pytest
 from live_api import Service, problem_fields
 from store_samples import SampleSize, fill_store
 
+from backend.figures.drawing import Drawing
+
 SIZE = SampleSize(tasks=("FetchPush",), methods=("her", "ddpg"), seeds=3, epochs=4)
 
 
@@ -74,8 +76,12 @@ def test_latex_comes_as_a_file(compared: Service):
 
 
 def test_a_bundle_is_an_archive_with_every_config(compared: Service, monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr("backend.figures.bundle.draw_apart", lambda drawings: [b"drawn"] * len(drawings))
-    answer = compared.client.get("/api/compare/bundle.zip", params={"anonymous": True})
+    asked: list[Drawing] = []
+    monkeypatch.setattr(
+        "backend.figures.bundle.draw_apart", lambda drawings: asked.extend(drawings) or [b"drawn"] * len(drawings)
+    )
+    answer = compared.client.get("/api/compare/bundle.zip", params={"anonymous": True, "log_x": True, "log_y": True})
+    assert {(drawn.log_x, drawn.log_y) for drawn in asked} == {(True, True)}
     with zipfile.ZipFile(io.BytesIO(answer.content)) as archive:
         assert sum(name.startswith("configs/") for name in archive.namelist()) == 6
 

@@ -22,6 +22,7 @@ from backend.client.access import BadUrl, find_local_server, find_token, find_ur
 from backend.client.connection import Connection
 from backend.client.curves import MetricBatch, join_batches
 from backend.client.records import comparisons, runs, service, studies
+from backend.figures.drawing import DRAWING_S
 from backend.store.files import register_file
 from backend.store.metrics import MetricPoint, append_metrics
 from backend.store.outcomes import Failed
@@ -160,6 +161,21 @@ def test_whoever_does_not_answer_is_named(free_port: int):
     with pytest.raises(NotReachable):
         connection.tell(dict, "POST", "/api/launches")
     assert len(pauses) == 3
+
+
+def test_a_figure_may_take_as_long_as_its_drawing_and_is_asked_for_once():
+    waits: list[float] = []
+
+    def answer(request: httpx.Request) -> httpx.Response:
+        waits.append(request.extensions["timeout"]["read"])
+        raise httpx.ReadTimeout("It draws.", request=request)
+
+    connection = Connection("http://127.0.0.1:1", None, lambda pause_s: None)
+    connection._http = httpx.Client(base_url="http://127.0.0.1:1", transport=httpx.MockTransport(answer))
+    with pytest.raises(NotReachable, match="did not answer in time"):
+        connection.ask_bytes("/api/compare/figure.svg")
+    [wait] = waits
+    assert wait > DRAWING_S
 
 
 def test_another_program_at_the_address_is_told_apart():

@@ -66,7 +66,8 @@ def get_bundle(
     curves = compare_curves(store, memory, choice, view)
     run_ids = [member.run_id for panel in curves.panels for curve in panel.curves for member in curve.members]
     best = compare_best(store, memory, choice, view)
-    bundle = Bundle(curves, best, read_configs(store, run_ids), anonymous, look.width)
+    configs = read_configs(store, run_ids)
+    bundle = Bundle(curves, best, configs, anonymous, look.width, look.log_x, look.log_y)
     headers = {"content-disposition": 'attachment; filename="sldr-comparison.zip"'}
     return Response(make_bundle(bundle), media_type="application/zip", headers=headers)
 
