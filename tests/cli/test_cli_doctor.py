@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import socket
 import sys
 from importlib.metadata import PackageNotFoundError
 from pathlib import Path
+from typing import NoReturn
 
 import pytest
 from command_line import run, use
 
 from backend.api.server_mark import marked
-from backend.store.database import open_database
+from backend.store.database import Database, open_database
 from backend.store.inspection import StoreState, inspect_store
 from backend.store.settings import Settings, sqlite_url
+from backend.store.workers import register_worker, set_draining
 from worker.doctor import machine
-from worker.doctor.data import describe_store, look_at_files, look_at_home, look_at_store
+from worker.doctor.data import describe_store, look_at_files, look_at_home, look_at_store, look_at_workers
 from worker.doctor.installation import compare_versions, look_at_page, look_at_versions
 from worker.doctor.machine import describe_disk, describe_gpus, look_at_gpu, look_at_port, look_at_renderer
 from worker.machine import DriverSilent, Gpu
@@ -74,6 +77,11 @@ def test_a_driver_without_use_is_pointed_out(gpus: list[Gpu], torch: str, driver
     assert describe_gpus(gpus, torch, driver).standing == standing
 
 
+@pytest.mark.parametrize("visible", ["", "MIG-4ad5e0"])
+def test_the_variable_that_hides_cards_is_named(visible: str):
+    assert f"CUDA_VISIBLE_DEVICES is '{visible}'" in describe_gpus([], "2.13.0", True, visible).told
+
+
 def test_a_driver_that_does_not_answer_is_told(monkeypatch: pytest.MonkeyPatch):
     def ask_in_vain() -> list[Gpu]:
         raise DriverSilent("The NVIDIA driver does not answer.")
@@ -126,6 +134,14 @@ def test_the_revision_of_tables_is_judged(revision: str | None, standing: str):
     assert describe_store(StoreState("sqlite", revision, "0007"), "the store").standing == standing
 
 
+def test_a_drained_worker_does_not_count(db: Database, settings: Settings):
+    drained, taking = (register_worker(db, "here", pid, slots=2) for pid in (1, 2))
+    set_draining(db, drained, True)
+    assert look_at_workers(settings).told == "1 alive, for 2 runs at once, besides 1 drained."
+    set_draining(db, taking, True)
+    assert look_at_workers(settings).standing == "poor"
+
+
 def test_addresses_that_cannot_work_are_told(tmp_path: Path):
     assert look_at_store(Settings(tmp_path, "mysql://box/sldr")).standing == "wrong"
     away = look_at_store(Settings(tmp_path, "postgresql+psycopg://u:secret@127.0.0.1:1/sldr"))
@@ -148,3 +164,40 @@ def test_the_command_prints_for_people_and_programs(
     found = {finding["name"]: finding["standing"] for finding in json.loads(out)}
     assert (code, found["page"], found["store"], found["workers"]) == (1, "wrong", "ok", "poor")
     assert len(found) == 10
+
+
+def test_an_empty_data_directory_stays_empty(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    home = tmp_path / "home"
+    use(Settings(home, sqlite_url(home)), monkeypatch)
+    monkeypatch.setattr("worker.cli.commands.doctor.look_at_renderer", lambda: machine.ok("drawing", "It draws."))
+    _, out, _ = run(capsys, "doctor")
+    assert "No worker is alive" in out
+    assert not home.exists()
+
+
+def test_a_look_that_breaks_down_is_a_finding_and_the_others_go_on(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    def refuse(home: Path) -> NoReturn:
+        raise PermissionError(errno.EACCES, "Permission denied", str(home))
+
+    def miss() -> NoReturn:
+        raise PackageNotFoundError("torch")
+
+    (tmp_path / "sldr.db").write_bytes(b"no database" * 100)
+    use(Settings(tmp_path, sqlite_url(tmp_path)), monkeypatch)
+    monkeypatch.setattr("worker.cli.commands.doctor.look_at_disk", refuse)
+    monkeypatch.setattr("worker.cli.commands.doctor.look_at_gpu", miss)
+    monkeypatch.setattr("worker.cli.commands.doctor.look_at_renderer", lambda: machine.ok("drawing", "It draws."))
+    code, out, _ = run(capsys, "doctor", "--port", "70000")
+    assert code == 1
+    for line in (
+        f"WRONG  disk      {tmp_path}: Permission denied.",
+        "WRONG  store     The store is damaged (file is not a database)",
+        "WRONG  port      There is no port 70000.",
+        "WRONG  GPU       Looking at it ended with PackageNotFoundError: No package metadata was found for torch.",
+        "ok     drawing   It draws.",
+    ):
+        assert line in out

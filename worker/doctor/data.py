@@ -5,25 +5,27 @@ from __future__ import annotations
 import os
 import stat
 import tempfile
+from collections.abc import Sequence
+from contextlib import closing
 from pathlib import Path
 
 from backend.client.access import TOKEN_FILE
-from backend.store.database import Database
+from backend.store.database import open_database
 from backend.store.engines import parse_address
 from backend.store.errors import StoreUnavailable
 from backend.store.inspection import StoreState, inspect_store
 from backend.store.settings import Settings
 from backend.store.storage import FileStorage
-from backend.store.workers import list_workers
+from backend.store.workers import WorkerRow, list_workers
 from sldr_core.errors import SldrError
 from worker.doctor.finding import Finding, ok, poor, wrong
+from worker.doctor.machine import nearest_existing
 
 
 def look_at_home(home: Path) -> Finding:
-    """Write a file where the data lies."""
+    """Write a file where the data lies, or would."""
     try:
-        home.mkdir(parents=True, exist_ok=True)
-        with tempfile.NamedTemporaryFile(dir=home):
+        with tempfile.NamedTemporaryFile(dir=nearest_existing(home)):
             pass
     except OSError as err:
         mend = "make it writable for this user, or let SLDR_HOME name another directory."
@@ -72,15 +74,28 @@ def look_at_files(settings: Settings) -> Finding:
     return ok("files", f"The shared place {settings.files_url} can be written.")
 
 
-def look_at_workers(db: Database) -> Finding:
-    """See whether anything would be trained."""
-    alive = [worker for worker in list_workers(db) if worker.alive]
+def look_at_workers(settings: Settings) -> Finding:
+    """See whether anything would be trained; a store without tables is left without."""
+    if inspect_store(settings).revision is None:
+        return describe_workers([])
+    with closing(open_database(settings)) as db:
+        return describe_workers(list_workers(db))
+
+
+def describe_workers(workers: Sequence[WorkerRow]) -> Finding:
+    """Say what the workers that the store knows would train."""
+    alive = [worker for worker in workers if worker.alive]
+    taking = [worker for worker in alive if not worker.draining]
     if not alive:
         return poor(
             "workers", "No worker is alive, so nothing is trained.", "start one: `sldr serve`, or `sldr worker`."
         )
-    slots = sum(worker.slots for worker in alive)
-    return ok("workers", f"{len(alive)} alive, for {slots} runs at once.")
+    if not taking:
+        told = f"{len(alive)} alive, and all of them are drained, so nothing new is trained."
+        return poor("workers", told, "let one take runs again, on the page Workers.")
+    slots = sum(worker.slots for worker in taking)
+    drained = f", besides {len(alive) - len(taking)} drained" if len(taking) < len(alive) else ""
+    return ok("workers", f"{len(taking)} alive, for {slots} runs at once{drained}.")
 
 
 def _shown(settings: Settings) -> str:

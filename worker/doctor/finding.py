@@ -6,6 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
+from worker.sentences import sentence_of
+
 Standing = Literal["ok", "poor", "wrong"]
 """`poor` works, but not as well as it could; `wrong` keeps something from working."""
 
@@ -24,7 +26,15 @@ class Finding:
 
 
 Look = Callable[[], Finding]
-"""One look; it raises nothing, for whatever goes wrong is what was looked for."""
+
+
+def guard(name: str, look: Look) -> Finding:
+    """Return what a look has found; one that breaks down has found something that is wrong."""
+    try:
+        return look()
+    except Exception as err:
+        told = sentence_of(err) or f"Looking at it ended with {type(err).__name__}: {err}."
+        return wrong(name, told, "see what the other lines say, and mend that first.")
 
 
 def ok(name: str, told: str) -> Finding:

@@ -14,7 +14,7 @@ from pathlib import Path
 
 from backend.client.access import find_local_server
 from worker.doctor.finding import Finding, ok, poor, wrong
-from worker.machine import DriverSilent, Gpu, ask_for_gpus
+from worker.machine import VISIBLE_VARIABLE, DriverSilent, Gpu, ask_for_gpus
 from worker.render import MISSING_EGL
 
 DRAWN_WITHIN_S = 60.0
@@ -29,6 +29,7 @@ LITTLE_ROOM = 20 * 10**9
 """Less free space than this is soon used up: one run of the paper's size keeps about 1 GB of replay [bytes]."""
 NO_ROOM = 10**9
 """With less free space than this, runs fail [bytes]."""
+MOST_PORTS = 65535
 FEW_NODES = 100_000
 """Fewer free file nodes than this are soon used up."""
 
@@ -50,18 +51,25 @@ def look_at_gpu() -> Finding:
     """See whether trainings can use a graphics card."""
     driver = shutil.which("nvidia-smi") is not None
     try:
-        return describe_gpus(ask_for_gpus(), version("torch"), driver)
+        return describe_gpus(ask_for_gpus(), version("torch"), driver, os.environ.get(VISIBLE_VARIABLE))
     except DriverSilent as err:
         return poor("GPU", str(err), "see what `nvidia-smi` says; restarting the machine loads the driver anew.")
 
 
-def describe_gpus(gpus: Sequence[Gpu], torch: str, has_driver: bool) -> Finding:
-    """Say what graphics cards, the build of PyTorch and the driver mean together."""
+def describe_gpus(gpus: Sequence[Gpu], torch: str, has_driver: bool, visible: str | None = None) -> Finding:
+    """Say what graphics cards, the build of PyTorch and the driver mean together.
+
+    Args:
+        visible: what CUDA_VISIBLE_DEVICES says; None if it is not set.
+    """
     if gpus:
         return ok("GPU", f"Trainings can use {', '.join(gpu.name for gpu in gpus)}.")
     if has_driver and torch.endswith("+cpu"):
         mend = "install the build with CUDA: pip install torch==" + torch.partition("+")[0] + " from the usual index."
         return poor("GPU", f"There is an NVIDIA driver, but PyTorch {torch} was built without CUDA.", mend)
+    if has_driver and visible is not None:
+        told = f"There is an NVIDIA driver, but {VISIBLE_VARIABLE} is '{visible}', which names no card for trainings."
+        return poor("GPU", told, "unset it, or let it name a card by number or by its id GPU-...; not by one of MIG.")
     if has_driver:
         return poor("GPU", "There is an NVIDIA driver, but it shows no card.", "see what `nvidia-smi` says.")
     return ok("GPU", "There is none; trainings use the processor.")
@@ -69,9 +77,14 @@ def describe_gpus(gpus: Sequence[Gpu], torch: str, has_driver: bool) -> Finding:
 
 def look_at_disk(home: Path) -> Finding:
     """See how much room there is where runs are kept."""
-    there = next(path for path in (home, *home.parents) if path.exists())
+    there = nearest_existing(home)
     usage, nodes = shutil.disk_usage(there), os.statvfs(there)
     return describe_disk(home, usage.free, usage.total, nodes.f_favail if nodes.f_files else None)
+
+
+def nearest_existing(path: Path) -> Path:
+    """Return the path, or what there is already of the directories above it."""
+    return next(there for there in (path, *path.parents) if there.exists())
 
 
 def describe_disk(home: Path, free: int, total: int, free_nodes: int | None) -> Finding:
@@ -93,6 +106,8 @@ def describe_disk(home: Path, free: int, total: int, free_nodes: int | None) -> 
 
 def look_at_port(host: str, port: int) -> Finding:
     """See whether the service could listen, or already does."""
+    if not 1 <= port <= MOST_PORTS:
+        return wrong("port", f"There is no port {port}.", f"choose one from 1 to {MOST_PORTS}, such as 8000.")
     served = find_local_server()
     if served is not None and served.endswith(f":{port}"):
         return ok("port", f"The service runs at {served}.")

@@ -5,16 +5,12 @@ from __future__ import annotations
 import dataclasses
 import json as json_format
 from collections.abc import Iterator, Sequence
-from contextlib import closing
 
 import tyro
 
-from backend.store.database import open_database
-from backend.store.errors import StoreUnavailable
 from backend.store.settings import Settings, load_settings
-from sldr_core.errors import SldrError
 from worker.doctor.data import look_at_files, look_at_home, look_at_store, look_at_workers
-from worker.doctor.finding import Finding
+from worker.doctor.finding import Finding, guard
 from worker.doctor.installation import look_at_page, look_at_versions
 from worker.doctor.machine import look_at_disk, look_at_gpu, look_at_port, look_at_renderer
 
@@ -47,24 +43,20 @@ def doctor(host: str = "127.0.0.1", port: int = 8000, json: bool = False) -> int
 
 
 def look(settings: Settings, host: str, port: int) -> Iterator[Finding]:
-    """Yield what is found, as soon as it is."""
-    yield look_at_versions()
-    yield look_at_page()
-    home = look_at_home(settings.home)
+    """Yield what is found, as soon as it is; nothing is changed."""
+    yield guard("versions", look_at_versions)
+    yield guard("page", look_at_page)
+    home = guard("data", lambda: look_at_home(settings.home))
     yield home
-    yield look_at_disk(settings.home)
-    store = look_at_store(settings)
+    yield guard("disk", lambda: look_at_disk(settings.home))
+    store = guard("store", lambda: look_at_store(settings))
     yield store
-    yield look_at_files(settings)
+    yield guard("files", lambda: look_at_files(settings))
     if home.standing != "wrong" and store.standing == "ok":
-        try:
-            with closing(open_database(settings)) as db:
-                yield look_at_workers(db)
-        except (SldrError, StoreUnavailable) as err:
-            yield Finding("workers", "wrong", str(err), "see that the database runs.")
-    yield look_at_port(host, port)
-    yield look_at_gpu()
-    yield look_at_renderer()
+        yield guard("workers", lambda: look_at_workers(settings))
+    yield guard("port", lambda: look_at_port(host, port))
+    yield guard("GPU", look_at_gpu)
+    yield guard("drawing", look_at_renderer)
 
 
 def lines_of(finding: Finding) -> list[str]:
