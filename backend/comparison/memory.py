@@ -9,8 +9,8 @@ import hashlib
 import threading
 from collections import OrderedDict
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import Any, TypeVar
+from dataclasses import dataclass, fields, is_dataclass
+from typing import Any, TypeVar, cast
 
 from backend.comparison.variants import Variant, deviations
 from backend.store.compared_runs import ComparedRun, read_configs
@@ -21,7 +21,10 @@ POINTS_KEPT = 400_000
 """Points of curves kept, about 30 MB."""
 
 ANSWERS_KEPT = 32
-"""Answers kept."""
+"""Answers kept, unless they are large."""
+
+VALUES_KEPT = 1_000_000
+"""Values in all answers kept, about 30 MB; only the newest answer may be larger than that by itself."""
 
 VARIANTS_KEPT = 20_000
 """Configs whose deviations are kept."""
@@ -42,6 +45,15 @@ class KnownCurve:
 
 
 @dataclass(frozen=True)
+class KnownAnswer:
+    """Hold one answer."""
+
+    answer: Any
+    values: int
+    """Numbers and words in it."""
+
+
+@dataclass(frozen=True)
 class KnownCurves:
     """Hold one metric of several runs."""
 
@@ -59,7 +71,8 @@ class ComparisonMemory:
         self._curves: OrderedDict[tuple[str, str], KnownCurve] = OrderedDict()
         self._points = 0
         self._variants: dict[tuple[str, str], Variant] = {}
-        self._answers: OrderedDict[str, Any] = OrderedDict()
+        self._answers: OrderedDict[str, KnownAnswer] = OrderedDict()
+        self._values = 0
 
     @property
     def size(self) -> tuple[int, int]:
@@ -101,12 +114,9 @@ class ComparisonMemory:
         with self._lock:
             if version in self._answers:
                 self._answers.move_to_end(version)
-                return self._answers[version]
+                return self._answers[version].answer
         made = make()
-        with self._lock:
-            self._answers[version] = made
-            while len(self._answers) > ANSWERS_KEPT:
-                self._answers.popitem(last=False)
+        self._keep_answer(version, KnownAnswer(made, count_values(made)))
         return made
 
     def _keep(self, metric: str, known: dict[str, KnownCurve]) -> None:
@@ -118,6 +128,26 @@ class ComparisonMemory:
             while self._points > POINTS_KEPT and self._curves:
                 _, dropped = self._curves.popitem(last=False)
                 self._points -= len(dropped.logged)
+
+    def _keep_answer(self, version: str, known: KnownAnswer) -> None:
+        with self._lock:
+            older = self._answers.pop(version, None)
+            self._values += known.values - (older.values if older else 0)
+            self._answers[version] = known
+            while len(self._answers) > ANSWERS_KEPT or (self._values > VALUES_KEPT and len(self._answers) > 1):
+                _, dropped = self._answers.popitem(last=False)
+                self._values -= dropped.values
+
+
+def count_values(part: object) -> int:
+    """Return how many numbers and words an answer holds; the lists in it are columns, or hold records or lists."""
+    if is_dataclass(part):
+        return sum(count_values(getattr(part, field.name)) for field in fields(part))
+    if isinstance(part, list):
+        items = cast("list[object]", part)
+        is_column = bool(items) and not (isinstance(items[0], list) or is_dataclass(items[0]))
+        return len(items) if is_column else sum(map(count_values, items))
+    return 1
 
 
 def data_version(question: object, runs: Sequence[ComparedRun]) -> str:
