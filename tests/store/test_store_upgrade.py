@@ -19,13 +19,17 @@ from store_engines import SqliteStores
 
 from backend.store.actions import Action, act_on
 from backend.store.attempts import list_attempts
+from backend.store.backups.make import make_backup
 from backend.store.claims import Claim, claim_from_json, claim_to_json
 from backend.store.database import Database, open_database
+from backend.store.errors import Refused
 from backend.store.files import list_files
+from backend.store.inspection import inspect_store
 from backend.store.metrics import MetricPoint, append_metrics, read_metrics
 from backend.store.outcomes import HandedBack, Succeeded
 from backend.store.queue import claim, finish, heartbeat
 from backend.store.runs import RunFilter, RunRow, get_run, list_events, list_runs
+from backend.store.settings import Settings
 from backend.store.states import RunState
 from backend.store.tables import SCHEMA_REVISION
 from sldr_core.config import config_from_dict
@@ -35,13 +39,19 @@ OLD_WORKER = "f3d036893edd"
 
 
 @pytest.fixture
-def db(sqlite_stores: SqliteStores, tmp_path: Path) -> Iterator[Database]:
-    """Return the store that the first version left, opened by this one; that version knew SQLite alone."""
+def first_store(sqlite_stores: SqliteStores, tmp_path: Path) -> Iterator[Settings]:
+    """Return the data directory that the first version left; that version knew SQLite alone."""
     with sqlite_stores.fresh(tmp_path, empty=True) as settings:
         with closing(sqlite3.connect(tmp_path / "sldr.db")) as connection:
             connection.executescript(FIRST_STORE.read_text())
-        with closing(open_database(settings)) as database:
-            yield database
+        yield settings
+
+
+@pytest.fixture
+def db(first_store: Settings) -> Iterator[Database]:
+    """Return its store, opened by this version."""
+    with closing(open_database(first_store)) as database:
+        yield database
 
 
 def only(db: Database, state: RunState) -> RunRow:
@@ -67,6 +77,14 @@ def old_claim(db: Database) -> Claim:
 def test_the_store_is_brought_to_the_newest_version(db: Database) -> None:
     with db.read() as conn:
         assert conn.execute(text("SELECT version_num FROM alembic_version")).scalar_one() == SCHEMA_REVISION
+
+
+def test_no_backup_is_made_of_a_store_that_would_be_migrated_for_it(first_store: Settings, tmp_path: Path) -> None:
+    with pytest.raises(Refused, match="make the backup with the version that has used the store so far"):
+        make_backup(first_store, tmp_path / "backup", overwrite=False, tell=print)
+
+    assert inspect_store(first_store).revision == "0001"
+    assert not (tmp_path / "backup").exists()
 
 
 def test_runs_keep_their_order_and_those_for_a_gpu_are_known(db: Database) -> None:

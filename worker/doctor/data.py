@@ -54,7 +54,9 @@ def describe_store(state: StoreState, address: str) -> Finding:
         return ok("store", f"{address} answers; its tables are of revision {state.revision}.")
     if state.revision < state.expected:
         told = f"{address} is of revision {state.revision}, brought to {state.expected} when the service starts."
-        return poor("store", told, "make a backup first: `sldr backup FILE.tar`.")
+        return poor(
+            "store", told, "make a backup first, with the version that has used it so far: `sldr backup FILE.tar`."
+        )
     told = f"{address} is of revision {state.revision}, and this version knows {state.expected}."
     return wrong("store", told, "start the newer version that has used it, or restore a backup made before.")
 

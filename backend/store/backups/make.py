@@ -31,8 +31,9 @@ from backend.store.backups.files import CannotCopy, FileCopier
 from backend.store.backups.rows import Tell, copy_rows
 from backend.store.database import Database, open_database
 from backend.store.engines import parse_address
-from backend.store.errors import FileGone
+from backend.store.errors import FileGone, Refused
 from backend.store.files import LOG_FILE, FileRow
+from backend.store.inspection import inspect_store
 from backend.store.settings import Settings
 from backend.store.states import RunState
 from backend.store.tables import run_files, runs
@@ -65,11 +66,13 @@ def make_backup(settings: Settings, target: Path, overwrite: bool, tell: Tell) -
 
     Raises:
         WouldOverwrite: something is there.
+        Refused: the store's tables are of an earlier version, which would be migrated before there is a backup.
         DiskTooFull: it does not fit.
         StoreUnavailable: store or shared place cannot be used just now.
     """
     target = target.absolute()
     check_target(target, overwrite)
+    _check_revision(settings)
     target.parent.mkdir(parents=True, exist_ok=True)
     stage = target.with_name(f".{target.name}.partial")
     if stage.exists():
@@ -83,6 +86,15 @@ def make_backup(settings: Settings, target: Path, overwrite: bool, tell: Tell) -
         db.close()
         shutil.rmtree(stage, ignore_errors=True)
     return report
+
+
+def _check_revision(settings: Settings) -> None:
+    state = inspect_store(settings)
+    if state.revision is not None and state.revision < state.expected:
+        raise Refused(
+            f"The store's tables are of revision {state.revision}, and this version would bring them to "
+            f"{state.expected} first; make the backup with the version that has used the store so far."
+        )
 
 
 def _fill(db: Database, settings: Settings, stage: Path, target: Path, tell: Tell) -> BackupReport:
