@@ -31,10 +31,13 @@ def set_priority(db: Database, run_ids: Sequence[str], priority: int) -> None:
             {"priority": f"it must be between {-HIGHEST_PRIORITY} and {HIGHEST_PRIORITY}, got {priority}"}
         )
     with db.write() as conn:
+        # In the order of their launch, as all who lock several: two at once would wait for each other.
+        query = select(runs.c.id).where(runs.c.id.in_(run_ids)).order_by(runs.c.number)
+        there = set(conn.execute(query.with_for_update()).scalars())
         for run_id in run_ids:
-            change = update(runs).where(runs.c.id == run_id).values(rank=-priority)
-            if conn.execute(change).rowcount == 0:
+            if run_id not in there:
                 raise NotFound("run", run_id)
+        conn.execute(update(runs).where(runs.c.id.in_(there)).values(rank=-priority))
 
 
 def move_run(db: Database, run_id: str, before: str | None) -> None:
@@ -105,5 +108,6 @@ def _position_between(ahead: Sequence[AnyRow], behind: Sequence[AnyRow], own: fl
 
 
 def _number_afresh(conn: Connection, queue: Sequence[AnyRow], rank: int) -> None:
-    for position, row in enumerate(queue, start=1):
+    # In the order of their launch; see `set_priority`.
+    for position, row in sorted(enumerate(queue, start=1), key=lambda placed: placed[1].number):
         conn.execute(update(runs).where(runs.c.id == row.id).values(rank=rank, queue_position=float(position)))

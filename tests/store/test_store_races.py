@@ -8,6 +8,7 @@ from store_cases import at_once, claim_next, order
 
 from backend.store.database import Database
 from backend.store.launches import LaunchOrder, launch
+from backend.store.order import set_priority
 from backend.store.outcomes import Succeeded
 from backend.store.queue import finish
 from backend.store.runs import RunFilter, get_run, list_runs
@@ -38,3 +39,11 @@ def test_a_run_starts_when_both_that_it_needs_end_at_once(db: Database) -> None:
 
         assert get_run(db, manipulation).state is RunState.QUEUED
         finish(db, claim_next(db), Succeeded(1.0))
+
+
+def test_two_that_give_the_same_runs_a_priority_do_not_wait_for_each_other(db: Database) -> None:
+    run_ids = launch(db, order(seeds=tuple(range(60))))
+    for _ in range(ROUNDS):
+        at_once(partial(set_priority, db, run_ids, 1), partial(set_priority, db, run_ids[::-1], 2))
+
+    assert len({run.priority for run in list_runs(db, RunFilter(), 100).rows}) == 1
