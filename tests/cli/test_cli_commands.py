@@ -29,7 +29,7 @@ def test_help_names_every_command(capsys: pytest.CaptureFixture[str]):
     assert all(name in out for name in COMMANDS)
 
 
-@pytest.mark.parametrize("command", [name for name in COMMANDS if name != "viewer"])
+@pytest.mark.parametrize("command", COMMANDS)
 def test_every_command_explains_itself(capsys: pytest.CaptureFixture[str], command: str):
     code, out, _ = run(capsys, command, "--help")
     assert code == 0
@@ -73,7 +73,10 @@ TRAIN = ("train", "--task", "FetchPush", "--method", "her", "--preset", "smoke")
         ((*TRAIN, "--set", "batch"), "'batch' is not of the form group.name=value"),
         ((*TRAIN, "--set", "loop=1", "--set", "loop.epochs=1"), "'loop' is already set to a value"),
         (("train", "--task", "FetchPush"), "sldr train --task FetchPush --phase locomotion"),
-        (("train", "--task", "FetchPush", "--locomotion-model", "nowhere.pt"), "There is no locomotion model nowhere.pt"),
+        (
+            ("train", "--task", "FetchPush", "--locomotion-model", "nowhere.pt"),
+            "There is no locomotion model nowhere.pt",
+        ),
         ((*TRAIN, "--locomotion-model", "nowhere.pt"), "locomotion-model: method her takes no reward from one"),
         ((*TRAIN, "--set", "method=ddpg"), "method: is named by the launch itself"),
         (("evaluate", "nowhere.pt"), "There is no file nowhere.pt"),
@@ -83,6 +86,7 @@ TRAIN = ("train", "--task", "FetchPush", "--method", "her", "--preset", "smoke")
         (("render", "--task", "FetchPush", "--out", "no/such/a.png"), "there is no directory"),
         (("render", "--task", "FetchPush", "--out", "a.png", "--width", "0"), "at least one pixel"),
         (("worker", "--slots", "0"), "slots: a worker needs at least 1, got 0"),
+        (("viewer", "--port", "8080"), "port: views for the page need none; it is for --policy"),
         (("serve", "--port", "0"), "port: it must be between 1 and 65535, got 0"),
         (("serve", "--workers", "-1"), "workers: it must be 0 or more, got -1"),
         (("serve", "--host", "192.0.2.1"), "Cannot listen on 192.0.2.1 port 8000"),
