@@ -10,10 +10,14 @@ from importlib.metadata import version
 from pathlib import Path
 
 import pytest
+from cluster_cases import queue_run
 
+from backend.store.database import Database
+from backend.store.queue import claim
+from backend.store.settings import Settings
 from backend.store.workers import Machine
 from sldr_core.config import ComputeConfig
-from worker.executors.attempt_host import NodeUnfit, Terms, check_node
+from worker.executors.attempt_host import AttemptHost, NodeUnfit, Terms, check_node
 from worker.executors.cores import HeldCores
 from worker.executors.ray_needs import Needs, alive_resources, count_slots, describe_nodes, needs_of
 from worker.executors.shared_home import is_same_home, mark_home
@@ -72,6 +76,25 @@ def test_a_node_that_cannot_run_attempts_says_why(terms: dict[str, str], reason:
 
     with pytest.raises(NodeUnfit, match=f"Node {socket.gethostname()} {reason}"):
         check_node(replace(good, **terms), tmp_path)
+
+
+@pytest.mark.parametrize(("held", "seen"), [(Needs(1, 0), "''"), (Needs(1, 1), "'3'")])
+def test_an_attempt_sees_the_gpu_that_was_set_aside_for_it_and_no_other(
+    db: Database, settings: Settings, monkeypatch: pytest.MonkeyPatch, held: Needs, seen: str
+) -> None:
+    for name, value in {**settings.as_environment(), "CUDA_VISIBLE_DEVICES": "3"}.items():
+        monkeypatch.setenv(name, value)
+    show = [sys.executable, "-c", "import os; print(repr(os.environ['CUDA_VISIBLE_DEVICES']))"]
+    run_id = queue_run(db, {"compute": {"threads": 1}})
+    claimed = claim(db, "worker-1")
+    assert claimed is not None
+
+    host = AttemptHost()
+    host.start(claimed, Terms(settings.as_environment(), None, None, version("sldr"), show), held)
+    assert host._child is not None
+    host._child.wait()
+
+    assert (settings.run_directory(run_id) / "log.txt").read_text().strip() == seen
 
 
 def test_two_holders_share_no_core(tmp_path: Path) -> None:

@@ -13,7 +13,9 @@ from backend.store.claims import Claim
 from backend.store.settings import load_settings
 from worker.executors.cores import HeldCores
 from worker.executors.local import CHILD_COMMAND, LocalChild, LocalExecutor
+from worker.executors.ray_needs import Needs
 from worker.executors.shared_home import is_same_home
+from worker.machine import VISIBLE_VARIABLE
 
 
 class NodeUnfit(Exception):
@@ -53,11 +55,11 @@ class AttemptHost:
         self._child: LocalChild | None = None
         self._cores: HeldCores | None = None
 
-    def start(self, claim: Claim, terms: Terms, cores: int) -> Placement:
+    def start(self, claim: Claim, terms: Terms, held: Needs) -> Placement:
         """Start the attempt.
 
         Args:
-            cores: what was set aside for it on this node.
+            held: what was set aside for it on this node.
 
         Raises:
             NodeUnfit: this node cannot run it.
@@ -67,7 +69,10 @@ class AttemptHost:
         settings = load_settings()
         check_node(terms, settings.home)
         if claim.config.compute.threads == 0:
-            self._keep_to(cores)
+            self._keep_to(held.cores)
+        if not held.gpus:
+            # Ray leaves the variable alone then, and the attempt would take a GPU that others count on.
+            os.environ[VISIBLE_VARIABLE] = ""
         self._child = LocalExecutor(settings, terms.command or CHILD_COMMAND).start(claim)
         return Placement(socket.gethostname(), self._child.pid)
 

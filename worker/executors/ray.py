@@ -90,7 +90,7 @@ class RayExecutor:
             .options(num_cpus=needs.cores, num_gpus=needs.gpus, scheduling_strategy="SPREAD", **NO_SECOND_TRY)
             .remote()
         )
-        return RayChild(host, host.start.remote(claim, self._terms, needs.cores), needs, claim.run_id)
+        return RayChild(host, host.start.remote(claim, self._terms, needs), needs, claim.run_id)
 
     def _nodes(self) -> list[Resources]:
         return alive_resources(ray.nodes())
