@@ -37,7 +37,13 @@ NO_GPU = {"CPU": 8.0}
     ],
 )
 def test_needs_follow_the_settings_of_a_run(compute: ComputeConfig, free: dict[str, float], needs: Needs) -> None:
-    assert needs_of(compute, 2, free) == needs
+    assert needs_of(compute, 2, free, [free]) == needs
+
+
+def test_a_run_does_without_a_gpu_whose_node_has_too_few_cores() -> None:
+    nodes = [{"CPU": 2.0, "GPU": 1.0}, {"CPU": 16.0}]
+
+    assert needs_of(ComputeConfig(threads=4, device="auto"), 2, {"CPU": 18.0, "GPU": 1.0}, nodes) == Needs(4, 0)
 
 
 def test_a_node_fits_only_with_all_that_is_needed() -> None:

@@ -82,8 +82,9 @@ class RayExecutor:
         return self._newest
 
     def _place(self, claim: Claim) -> Child:
-        needs = needs_of(claim.config.compute, self._cores, self._free())
-        if not any(needs.fits(node) for node in self._nodes()):
+        nodes = self._nodes()
+        needs = needs_of(claim.config.compute, self._cores, self._free(), nodes)
+        if not any(needs.fits(node) for node in nodes):
             return UnplacedChild(f"It needs {needs}, and no node of the cluster has as much; add one, or cancel it.")
         host = (
             ray.remote(AttemptHost)

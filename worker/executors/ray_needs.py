@@ -32,17 +32,20 @@ class Needs:
         return f"{self.cores} core{'s' if self.cores > 1 else ''}{gpus}"
 
 
-def needs_of(compute: ComputeConfig, cores: int, free: Resources) -> Needs:
-    """Return what a run asks for.
+def needs_of(compute: ComputeConfig, cores: int, free: Resources, nodes: Sequence[Resources]) -> Needs:
+    """Return what a run asks for; `device="auto"` takes a GPU if one is free and its node has the cores as well.
 
     Args:
         compute: the run's settings.
         cores: what a run gets that names no number of threads.
-        free: what nobody uses just now in the whole cluster: `device="auto"` takes a GPU if there is one.
+        free: what nobody uses just now in the whole cluster.
+        nodes: what each node has, used or not.
     """
-    has_free_gpu = free.get("GPU", 0.0) >= 1
-    gpus = 1 if compute.device == "cuda" or (compute.device == "auto" and has_free_gpu) else 0
-    return Needs(compute.threads or cores, gpus)
+    without, with_gpu = (Needs(compute.threads or cores, gpus) for gpus in (0, 1))
+    if compute.device == "cuda":
+        return with_gpu
+    is_gpu_of_use = free.get("GPU", 0.0) >= 1 and any(with_gpu.fits(node) for node in nodes)
+    return with_gpu if compute.device == "auto" and is_gpu_of_use else without
 
 
 def alive_resources(nodes: Sequence[Mapping[str, Any]]) -> list[Resources]:
