@@ -116,7 +116,7 @@ def _open_postgresql(url: URL) -> Engine:
     except ModuleNotFoundError as err:
         raise BadAddress(
             f"SLDR_DATABASE_URL names a PostgreSQL store, and its driver psycopg is not installed; "
-            f"install this package with its extra '{EXTRA}': pip install 'sldr[{EXTRA}]'."
+            f"install this package with its extra '{EXTRA}', in its directory: pip install '.[{EXTRA}]'."
         ) from err
     except NoSuchModuleError as err:
         raise BadAddress(f"SLDR_DATABASE_URL cannot be used ({err}); {_EXAMPLE}.") from err

@@ -99,13 +99,13 @@ PRESETS: dict[str, Preset] = {
         ),
         Preset(
             name="paper",
-            summary="The paper's protocol, exactly: hours on a laptop, made for a GPU box or a cluster.",
+            summary="The paper's budget and settings: hours on a laptop, made for a GPU box or a cluster.",
             manipulation={},
             locomotion={},
         ),
         Preset(
             name="smoke",
-            summary="See everything work in seconds; nothing is learnt.",
+            summary="See everything work within a minute; nothing is learnt.",
             manipulation={
                 "loop": {
                     "epochs": 2,

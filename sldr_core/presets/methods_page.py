@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterable, Sequence
 from itertools import combinations
 from pathlib import Path
-from typing import Any, cast
 
 from sldr_core.config import (
     METHODS,
     SWITCHES,
     MethodSpec,
-    config_schema,
     find_task,
     method_switches,
     stream_names,
 )
+from sldr_core.presets.markdown import SETTING_HEADS, listed, setting_rows, table
 
 PAGE = Path("docs/methods.md")
 """Where the page lies, from the root of the repository."""
@@ -31,8 +28,8 @@ CRITICS_IN = {
 }
 """A task of each kind by the number of its critics."""
 
-SETTING_GROUPS = {"sldr": "SldrConfig", "rnd": "RndConfig", "curriculum": "CurriculumConfig"}
-"""The groups of settings that only some methods have, with their names in the schema of a config."""
+SETTING_GROUPS = ("sldr", "rnd", "curriculum")
+"""The groups of settings that only some methods have."""
 
 
 def methods_page() -> str:
@@ -44,7 +41,7 @@ def methods_page() -> str:
         "hindsight, which reward the environment gives, and which further rewards there are. All else is the same. "
         "Every reward is a stream with a critic of its own; the actor climbs the weighted sum of all critics "
         "(Eq. 10 and 11).",
-        _table(
+        table(
             ("method", "in the paper", "sampler", "goals replaced", "environment's reward", "further rewards"),
             (_made_of(spec) for spec in METHODS.values()),
         ),
@@ -53,14 +50,14 @@ def methods_page() -> str:
         "## What each does",
         *(_described(spec) for spec in METHODS.values()),
         "## What tells two methods apart",
-        f"There are {len(SWITCHES)} switches: {_listed(list(SWITCHES.values()))}.",
-        _table(
+        f"There are {len(SWITCHES)} switches: {listed(list(SWITCHES.values()))}.",
+        table(
             ("method", "other", "differ in"),
             ((f"`{one}`", f"`{other}`", _differences(one, other)) for one, other in combinations(METHODS, 2)),
         ),
         "## Settings that only some methods have",
         "`replay.relabel_probability` is set by the method; an override replaces it, for ablations.",
-        _table(("setting", "default", "meaning"), _settings()),
+        table(SETTING_HEADS, setting_rows(SETTING_GROUPS)),
     ]
     return "\n\n".join(parts) + "\n"
 
@@ -81,7 +78,7 @@ def _critics() -> str:
     for spec in METHODS.values():
         streams = [stream_names(spec, find_task(task)) for task in CRITICS_IN.values()]
         rows.append((f"`{spec.name}`", *(f"{len(names)}: {', '.join(names)}" for names in streams)))
-    return _table(heads, rows)
+    return table(heads, rows)
 
 
 def _described(spec: MethodSpec) -> str:
@@ -91,24 +88,6 @@ def _described(spec: MethodSpec) -> str:
 
 def _differences(one: str, other: str) -> str:
     return "; ".join(f"{switch.title}: {switch.first} → {switch.second}" for switch in method_switches(one, other))
-
-
-def _settings() -> Iterable[tuple[str, ...]]:
-    records = cast(dict[str, Any], config_schema()["$defs"])
-    for group, record in SETTING_GROUPS.items():
-        properties = cast(dict[str, dict[str, Any]], records[record]["properties"])
-        for name, setting in properties.items():
-            meaning = " ".join(str(setting["description"]).split())
-            yield (f"`{group}.{name}`", f"`{json.dumps(setting['default'])}`", meaning)
-
-
-def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    lines = [heads, ["---"] * len(heads), *rows]
-    return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)
-
-
-def _listed(words: Sequence[str]) -> str:
-    return f"{', '.join(words[:-1])} and {words[-1]}"
 
 
 if __name__ == "__main__":

@@ -115,4 +115,4 @@ def test_an_earlier_export_is_not_mixed_with_a_new_one(export: Export, tmp_path:
 def test_a_missing_library_is_told_with_the_extra_that_brings_it(export: Export, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setitem(sys.modules, "mlflow", None)
     code, _, told = export("mlflow", "--uri", "file:/nowhere")
-    assert (code, "pip install 'sldr[mlflow]'" in told) == (2, True)
+    assert (code, "pip install '.[mlflow]'" in told) == (2, True)

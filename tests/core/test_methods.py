@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 from dataclasses import asdict, fields
 from itertools import product
 from pathlib import Path
@@ -15,7 +13,6 @@ from small_training import collected_parts, save_untrained_model, tiny_config
 from sldr_core.config import METHODS, SWITCHES, TASKS, MethodSpec, find_task, method_switches, stream_names
 from sldr_core.errors import UnknownName
 from sldr_core.presets import make_config
-from sldr_core.presets.methods_page import COMMAND, PAGE, methods_page
 from sldr_core.training.build import AUXILIARY, SAMPLERS
 
 ROOT = Path(__file__).parents[2]
@@ -115,16 +112,3 @@ def test_cher_learns_from_a_quarter_of_the_usual_batch() -> None:
 
     groups = config.loop.batch_size // config.curriculum.group_size
     assert (groups, groups * config.curriculum.candidates, groups * config.curriculum.kept) == (19, 2432, 1216)
-
-
-def test_the_page_about_methods_is_up_to_date() -> None:
-    assert (ROOT / PAGE).read_text(encoding="utf-8") == methods_page(), f"run: {COMMAND}"
-
-
-def test_the_command_that_writes_the_page_is_the_one_it_names(tmp_path: Path) -> None:
-    (tmp_path / PAGE.parent).mkdir()
-    arguments = [sys.executable, *COMMAND.split()[1:]]
-
-    subprocess.run(arguments, cwd=tmp_path, timeout=TIMEOUT_S, check=True, env={"PYTHONPATH": str(ROOT)})
-
-    assert (tmp_path / PAGE).read_text(encoding="utf-8") == methods_page()

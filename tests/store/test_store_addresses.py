@@ -65,7 +65,7 @@ def test_an_address_that_cannot_work_is_told_in_one_sentence(address: str, sente
 def test_without_its_driver_postgresql_names_the_extra() -> None:
     said = subprocess.run([sys.executable, "-c", WITHOUT_DRIVER], capture_output=True, text=True, check=True).stdout
 
-    assert said.endswith("pip install 'sldr[postgresql]'.\n")
+    assert said.endswith("pip install '.[postgresql]'.\n")
     assert said.count("\n") == 1
 
 

@@ -49,7 +49,9 @@ def require_ray() -> None:
         ClusterUnavailable: it is not.
     """
     if importlib.util.find_spec("ray") is None:
-        raise ClusterUnavailable("Running on a cluster needs Ray; install it with: pip install 'sldr[ray]'")
+        raise ClusterUnavailable(
+            "Running on a cluster needs Ray; install it in the product's directory: pip install '.[ray]'"
+        )
 
 
 def connect(address: str, home: Path) -> None:

@@ -22,6 +22,6 @@ def load_extra(module: str, extra: str) -> ModuleType:
         return import_module(module)
     except ModuleNotFoundError as err:
         raise ExtraMissing(
-            f"'{module.partition('.')[0]}' is not installed; install this package with its extra '{extra}': "
-            f"pip install 'sldr[{extra}]'."
+            f"'{module.partition('.')[0]}' is not installed; install this package with its extra '{extra}', "
+            f"in its directory: pip install '.[{extra}]'."
         ) from err

@@ -72,7 +72,7 @@ TEMPLATES: dict[str, Template] = {
         _paper(
             "paper",
             "The paper",
-            "Every task with every method and five seeds, by the paper's protocol.",
+            "Every task with every method and five seeds, with the paper's budget.",
             tuple(task for _, tasks in FAMILIES.values() for task in tasks),
         ),
         *(
