@@ -74,7 +74,7 @@ class Supervisor:
 
         Args:
             slots: trainings at the same time.
-            machine: what there is to train with; runs that ask for a GPU are taken only if it has one.
+            machine: what there is to train with, as it is told to people.
         """
         if slots < 1:
             raise InvalidConfig({"slots": f"a worker needs at least 1, got {slots}"})
@@ -154,7 +154,7 @@ class Supervisor:
 
     def _fill_slots(self, worker_id: str) -> None:
         while len(self._attempts) < self._slots and self._executor.has_room():
-            claimed = claim(self._db, worker_id, self._timing.lease_s, with_gpu=self._machine.gpu is not None)
+            claimed = claim(self._db, worker_id, self._timing.lease_s, with_gpu=self._executor.has_gpu())
             if claimed is None:
                 return
             self._start(claimed)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from datetime import timedelta
 
+from fake_trainings import fake_command
 from other_processes import is_running, wait_until
 from sqlalchemy import update
 from worker_cases import queued_run, wait_for_state, wait_for_training, worker
@@ -17,8 +18,18 @@ from backend.store.runs import get_run, list_events
 from backend.store.settings import Settings
 from backend.store.states import RunState
 from backend.store.tables import runs
-from backend.store.workers import Machine, list_workers, set_draining
+from backend.store.workers import list_workers, set_draining
+from worker.executors.local import LocalExecutor
 from worker.supervisor import HANG_S
+
+
+class GrowingExecutor(LocalExecutor):
+    """Get a GPU while it works, as a cluster does."""
+
+    gpu_has_joined = False
+
+    def has_gpu(self) -> bool:
+        return self.gpu_has_joined
 
 
 def cycles(db: Database, run_id: str) -> list[int]:
@@ -102,14 +113,15 @@ def test_a_draining_worker_keeps_what_it_runs_and_takes_nothing_else(db: Databas
         wait_for_state(db, second, RunState.RUNNING)
 
 
-def test_a_worker_without_a_gpu_leaves_a_run_that_asks_for_one(db: Database, settings: Settings) -> None:
+def test_a_run_that_asks_for_a_gpu_waits_until_there_is_one(db: Database, settings: Settings) -> None:
     order = LaunchOrder("FetchPush", "manipulation", "her", [0], "smoke", {"compute": {"device": "cuda"}})
     (wants_gpu,) = launch(db, order)
     plain = queued_run(db, 1)
-    with worker(db, settings, "counts", machine=Machine()):
+    executor = GrowingExecutor(settings, fake_command("counts"))
+    with worker(db, settings, "counts", executor=executor):
         wait_for_state(db, plain, RunState.SUCCEEDED)
         assert get_run(db, wants_gpu).state is RunState.QUEUED
-    with worker(db, settings, "counts", machine=Machine(gpu="H200")):
+        executor.gpu_has_joined = True
         wait_for_state(db, wants_gpu, RunState.SUCCEEDED)
 
 

@@ -19,7 +19,7 @@ from backend.store.metrics import read_metrics
 from backend.store.runs import RunRow, get_run
 from backend.store.settings import Settings
 from backend.store.states import RunState
-from backend.store.workers import Machine
+from worker.executors import Executor
 from worker.executors.local import LocalExecutor
 from worker.supervisor import Supervisor, Timing
 
@@ -28,10 +28,10 @@ HERE = Path(__file__).parent
 
 @contextmanager
 def worker(
-    db: Database, settings: Settings, behaviour: str, timing: Timing = TIMING, machine: Machine | None = None
+    db: Database, settings: Settings, behaviour: str, timing: Timing = TIMING, executor: Executor | None = None
 ) -> Generator[Supervisor]:
     """Run a supervisor in a thread for as long as the block lasts."""
-    supervisor = Supervisor(db, LocalExecutor(settings, fake_command(behaviour)), 1, timing, machine)
+    supervisor = Supervisor(db, executor or LocalExecutor(settings, fake_command(behaviour)), 1, timing)
     thread = threading.Thread(target=supervisor.run)
     thread.start()
     try:

@@ -44,6 +44,10 @@ class Executor(Protocol):
         """Tell whether another attempt could start now; a supervisor claims nothing while there is none."""
         ...
 
+    def has_gpu(self) -> bool:
+        """Tell whether there is a GPU, used or not, for runs that ask for one; on a cluster one may join any time."""
+        ...
+
     def start(self, claim: Claim) -> Child:
         """Start an attempt; what its process prints goes to the log in the run's directory.
 

@@ -87,6 +87,10 @@ class LocalExecutor:
         """Tell that another process can always be started; the supervisor's slots are the limit."""
         return True
 
+    def has_gpu(self) -> bool:
+        """Tell whether this machine had a GPU when the worker started."""
+        return bool(self._gpus)
+
     def start(self, claim: Claim) -> LocalChild:
         """Start an attempt; what its process prints goes to the log in the run's directory."""
         directory = self._settings.run_directory(claim.run_id)

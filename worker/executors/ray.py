@@ -76,6 +76,10 @@ class RayExecutor:
             return False
         return self._free().get("CPU", 0.0) >= self._cores
 
+    def has_gpu(self) -> bool:
+        """Tell whether a node has a GPU, as it is now."""
+        return self.describe().gpu is not None
+
     def start(self, claim: Claim) -> Child:
         """Ask Ray for a node; the attempt starts there as soon as one has what it needs."""
         self._newest = self._place(claim)
