@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import uuid
 from collections.abc import Mapping, Sequence
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 from datetime import datetime
 from typing import Any
 
-from sqlalchemy import Connection, func, insert, or_, select
+from sqlalchemy import ColumnElement, Connection, insert, or_, select
 
 from backend.store.dependents import why_blocked
 from backend.store.errors import Refused
-from backend.store.locomotion import LocomotionWish, find_sources
+from backend.store.locomotion import LocomotionSource, LocomotionWish, find_sources
 from backend.store.order import last_position
 from backend.store.states import Event, RunState, append_event
 from backend.store.tables import AnyRow, run_needs, runs
@@ -85,44 +86,82 @@ def plan_runs(
         InvalidConfig: a locomotion run that a person has named cannot serve.
     """
     wanted = {config_hash(config): config for config in configs}
-    shareable = [digest for digest, config in wanted.items() if share_all or config.phase == "locomotion"]
+    needed = _find_needed(conn, wanted, preset, wish)
+    shareable = {
+        digest: {source.run_id or needed_digest for needed_digest, source in needed[digest].items()}
+        for digest, config in wanted.items()
+        if share_all or config.phase == "locomotion"
+    }
     serving = find_serving(conn, shareable)
     # A run that is there already has what it needs, or says itself what became of that.
-    needed = {
-        digest: {config_hash(source.config): source for source in find_sources(conn, wish, config, preset)}
-        for digest, config in wanted.items()
-        if digest not in serving
-    }
-    locomotion = {digest: source for of_one_run in needed.values() for digest, source in of_one_run.items()}
+    of_new_runs = [sources for digest, sources in needed.items() if digest not in serving]
+    locomotion = {digest: source for sources in of_new_runs for digest, source in sources.items()}
     named = {digest: source.run_id for digest, source in locomotion.items() if source.run_id is not None}
-    serving = find_serving(conn, [*locomotion]) | serving | named
+    serving = find_serving(conn, dict.fromkeys(locomotion, frozenset())) | serving | named
     plan = [
         PlannedRun(source.config, digest, preset, needs=(), reused_run_id=serving.get(digest), model=source.model)
         for digest, source in locomotion.items()
     ]
     for digest, config in wanted.items():
-        plan.append(PlannedRun(config, digest, preset, tuple(needed.get(digest, ())), serving.get(digest)))
+        needs = () if digest in serving else tuple(needed[digest])
+        plan.append(PlannedRun(config, digest, preset, needs, serving.get(digest)))
     return plan
 
 
-def find_serving(conn: Connection, digests: Sequence[str]) -> dict[str, str]:
-    """Return the oldest run that was or will be trained with each of these configs, where there is one."""
+def _find_needed(
+    conn: Connection, wanted: Mapping[str, TrainConfig], preset: str, wish: LocomotionWish
+) -> dict[str, dict[str, LocomotionSource]]:
+    """Return by config hash where its locomotion models come from, each by the config hash of its run."""
+    of_all_seeds: dict[str, dict[str, LocomotionSource]] = {}
+    needed: dict[str, dict[str, LocomotionSource]] = {}
+    for digest, config in wanted.items():
+        settings = settings_hash(config)
+        if settings not in of_all_seeds:
+            sources = find_sources(conn, wish, config, preset)
+            of_all_seeds[settings] = {config_hash(source.config): source for source in sources}
+        needed[digest] = of_all_seeds[settings]
+    return needed
+
+
+def find_serving(conn: Connection, digests: Mapping[str, AbstractSet[str]]) -> dict[str, str]:
+    """Return the oldest run that was or will be trained with each of these configs, where there is one.
+
+    Args:
+        digests: by config hash, what such a run must learn from: the id of each locomotion run, or its config hash.
+    """
     lost = (RunState.FAILED, RunState.CANCELLED)
-    query = (
-        select(runs.c.config_hash, func.min(runs.c.number).label("number"))
-        .where(
-            runs.c.config_hash.in_(digests),
-            runs.c.state.not_in(lost),
-            or_(runs.c.cancel_requested.is_(False), runs.c.state == RunState.SUCCEEDED),
-            runs.c.deleted_at.is_(None),
-            # What came in a study file is there to be looked at; nobody here can vouch for it.
-            or_(runs.c.origin.is_(None), runs.c.origin == ZOO_TAG),
-        )
-        .group_by(runs.c.config_hash)
-        .subquery()
+    there = (
+        runs.c.config_hash.in_(list(digests)),
+        runs.c.state.not_in(lost),
+        or_(runs.c.cancel_requested.is_(False), runs.c.state == RunState.SUCCEEDED),
+        runs.c.deleted_at.is_(None),
+        # What came in a study file is there to be looked at; nobody here can vouch for it.
+        or_(runs.c.origin.is_(None), runs.c.origin == ZOO_TAG),
     )
-    found = conn.execute(select(runs.c.id, runs.c.config_hash).join(query, query.c.number == runs.c.number))
-    return {row.config_hash: row.id for row in found}
+    found = conn.execute(select(runs.c.id, runs.c.config_hash).where(*there).order_by(runs.c.number)).all()
+    needs = _read_needs(conn, there)
+    serving: dict[str, str] = {}
+    for row in found:
+        wanted = digests[row.config_hash]
+        learnt_from = [need.id if need.id in wanted else need.config_hash for need in needs.get(row.id, ())]
+        # The config does not tell what a run learns from, so two of the same config may be different trainings.
+        if sorted(learnt_from) == sorted(wanted):
+            serving.setdefault(row.config_hash, row.id)
+    return serving
+
+
+def _read_needs(conn: Connection, conditions: Sequence[ColumnElement[bool]]) -> dict[str, list[AnyRow]]:
+    """Return id and config hash of what runs need, deleted or not, by run id."""
+    needed = runs.alias("needed")
+    query = (
+        select(run_needs.c.run_id, needed.c.id, needed.c.config_hash)
+        .join(needed, needed.c.id == run_needs.c.needs_run_id)
+        .where(run_needs.c.run_id.in_(select(runs.c.id).where(*conditions)))
+    )
+    needs: dict[str, list[AnyRow]] = {}
+    for row in conn.execute(query):
+        needs.setdefault(row.run_id, []).append(row)
+    return needs
 
 
 def make_runs(

@@ -97,6 +97,32 @@ def test_the_locomotion_run_of_an_earlier_launch_is_shared(db: Database) -> None
     assert planned.reused_run_id == locomotion
 
 
+def test_a_run_serves_only_with_the_locomotion_run_that_is_asked_for(db: Database) -> None:
+    good, bad = (launch(db, order(phase="locomotion", seeds=(seed,)))[0] for seed in (1, 2))
+    asked = {"methods": ("her", "her-sldr"), "seeds": (0,)}
+    first = create_study(db, "good", small_spec(**asked, locomotion=good))
+
+    other = create_study(db, "bad", small_spec(**asked, locomotion=bad))
+    own = create_study(db, "own", small_spec(**asked))
+    again = create_study(db, "again", small_spec(**asked, locomotion=good))
+
+    assert [(study.queued, study.joined) for study in (first, other, own, again)] == [(2, 0), (1, 1), (2, 1), (0, 2)]
+    (run,) = cell_of(db, other.study_id, "her-sldr").runs
+    assert get_run(db, run.run_id).needs == (bad,)
+    assert study_run_ids(db, again.study_id) == study_run_ids(db, first.study_id)
+
+
+def test_a_run_serves_though_its_locomotion_run_was_deleted_since(db: Database) -> None:
+    first = made(db, methods=("her-sldr",), seeds=(0,))
+    locomotion, trained = train_next(db, Succeeded(1.0)), train_next(db, Succeeded(1.0))
+    act(db, Action.DELETE, locomotion)
+
+    assert [place.run_id for place in preview_study(db, small_spec(methods=("her-sldr",), seeds=(0,))).places] == [
+        trained
+    ]
+    assert study_run_ids(db, first) == [trained]
+
+
 def test_a_failed_run_serves_no_new_study(db: Database) -> None:
     (failed,) = launch(db, order("her", seeds=(0,)))
     train_next(db, DIVERGED)
