@@ -5,7 +5,7 @@ from __future__ import annotations
 import socket
 import sys
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import psutil
 import pytest
@@ -68,6 +68,23 @@ def test_an_attempt_does_not_make_way_for_others(db: Database, settings: Setting
     end(child)
 
     assert niceness == psutil.Process().nice()
+
+
+def test_a_start_that_gets_lost_on_the_way_is_given_up(connected: None, monkeypatch: pytest.MonkeyPatch) -> None:
+    from worker.executors import ray_child
+
+    def get_lost(_: object) -> NoReturn:
+        raise ray_child.ActorUnavailableError("the connection was reset", None)
+
+    monkeypatch.setattr(ray_child, "_is_ready", lambda _: True)
+    monkeypatch.setattr(ray_child.ray, "get", get_lost)
+    monkeypatch.setattr(ray_child.ray, "kill", lambda host, no_restart: None)
+    starting: Any = object()
+    child = ray_child.RayChild(object(), starting, ray_child.Needs(2, 0), "4ad5e0")
+
+    assert child.poll() == ray_child.EXIT_LOST
+    assert child.outcome() == Lost("The cluster lost what held its process before it was placed.")
+    assert child.is_settled()
 
 
 @pytest.mark.slow

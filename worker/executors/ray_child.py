@@ -84,8 +84,8 @@ class RayChild:
                 self._look()
             except RayTaskError as err:
                 self._end(EXIT_UNPLACED, _outcome_of(err))
-            except ActorUnavailableError:
-                self._looking = None  # The way there is disturbed; whether it is gone, Ray finds out.
+            except ActorUnavailableError as err:
+                self._wait_or_give_up(err)
             except RayError as err:
                 self._give_up(err)
         return self._status
@@ -135,6 +135,13 @@ class RayChild:
         elif time.monotonic() > self._give_up_at:
             reason = f"For {PLACEMENT_S:.0f} s no node of the cluster had {self._needs} free, or none could start it."
             self._end(EXIT_UNPLACED, HandedBack(reason, PLACE_AGAIN_S))
+
+    def _wait_or_give_up(self, err: ActorUnavailableError) -> None:
+        """Ask again later, for the way there is disturbed and Ray finds out whether it is gone."""
+        if self._placement is None:
+            self._give_up(err)  # Its start is asked for once: no other answer will come.
+        else:
+            self._looking = None
 
     def _give_up(self, err: RayError) -> None:
         if self._kill_at is not None:
