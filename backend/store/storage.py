@@ -83,10 +83,24 @@ class FileStorage:
             if checksum(path) != row.sha256:
                 raise BadFile(f"{path} is not the file that run {row.run_id} wrote; put back the right one.")
             return path
-        if here is not None:
-            return here
-        self._shared.get(row.path, self._fetched(row), row.sha256)
-        return self._fetched(row)
+        return here or self.fetch(row)
+
+    def fetch(self, row: FileRow) -> Path:
+        """Return a copy from the shared place, renewed if it is of an older version.
+
+        Its path stays the same, whichever machine writes the file: it can be followed.
+
+        Raises:
+            FileGone: there is no such file any more, or no shared place.
+            BadFile: its content is not what was registered.
+            FilesUnavailable: the shared place cannot be read just now.
+        """
+        copy = self._fetched(row)
+        if self._shared is None:
+            raise FileGone(f"File {row.name} of run {row.run_id} is at no shared place.")
+        if not _is_that_file(copy, row):
+            self._shared.get(row.path, copy, row.sha256)
+        return copy
 
     def read(self, row: FileRow, start: int = 0) -> Iterator[bytes]:
         """Read a file from the shared place piece by piece, from byte `start` on.

@@ -10,7 +10,8 @@ import pytest
 from backend.store.claims import Claim
 from backend.store.database import Database
 from backend.store.launches import LaunchOrder, launch
-from backend.store.queue import claim
+from backend.store.outcomes import HandedBack
+from backend.store.queue import claim, finish
 from backend.store.settings import Settings
 from backend.store.storage import FileStorage
 from backend.store.viewer_sessions import request_session
@@ -27,6 +28,10 @@ def here(settings: Settings, tmp_path: Path) -> Settings:
 @pytest.fixture
 def held(db: Database) -> Claim:
     launch(db, LaunchOrder("FetchPush", "locomotion", "her", [0], "smoke"))
+    return claimed(db)
+
+
+def claimed(db: Database) -> Claim:
     held = claim(db, "worker-1")
     assert held is not None
     return held
@@ -63,10 +68,31 @@ def test_the_policy_of_another_machine_is_renewed_in_place(
     assert path.read_bytes() == b"second"
 
 
-def test_the_policy_that_this_machine_trains_is_followed_itself(db: Database, here: Settings, held: Claim) -> None:
+def test_a_policy_is_followed_from_machine_to_machine(
+    db: Database, here: Settings, held: Claim, tmp_path: Path
+) -> None:
+    there = replace(here, home=tmp_path / "there")
     keep(db, here, held, b"first")
+    session = request_session(db, held.run_id)
+    [path] = find_session_files(run_files(db, here), session)["policy"]
+    seen = [path.read_bytes()]
 
-    assert run_files(db, here).policy(held.run_id) == here.run_directory(held.run_id) / "policy-newest.pt"
+    for machine, content in ((there, b"second"), (here, b"third")):
+        finish(db, held, HandedBack("Its worker was asked to end."))
+        held = claimed(db)
+        keep(db, machine, held, content)
+        find_session_files(run_files(db, here), session)
+        seen.append(path.read_bytes())
+
+    assert seen == [b"first", b"second", b"third"]
+
+
+def test_without_a_shared_place_the_policy_is_followed_where_it_is_written(
+    db: Database, settings: Settings, held: Claim
+) -> None:
+    keep(db, settings, held, b"first")
+
+    assert run_files(db, settings).policy(held.run_id) == settings.run_directory(held.run_id) / "policy-newest.pt"
 
 
 def test_a_file_that_the_run_has_not_got_is_named(db: Database, here: Settings, held: Claim) -> None:

@@ -242,7 +242,7 @@ class Host:
                 self._renew_files(served.session)
 
     def _renew_files(self, session: viewer_sessions.Session) -> None:
-        """Bring followed policies again if another machine writes them; where they are at home this costs nothing."""
+        """Bring followed policies again if there is a shared place; where there is none, they are followed at home."""
         if self._files.storage.shared is None:
             return
         try:

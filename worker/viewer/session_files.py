@@ -90,7 +90,8 @@ class RunFiles:
             return next((directory / name for name in POLICY_FILES if (directory / name).is_file()), None)
         row = self._newest_row(run_id)
         try:
-            return None if row is None else self.storage.bring(row)
+            # Not the run's own directory here: from the moment that another machine trains it, that is left behind.
+            return None if row is None else self.storage.fetch(row)
         except FileGone:
             return None  # replaced by a newer one in this very moment
 
