@@ -1,4 +1,4 @@
-"""Which runs belong together: the same method and the same settings, whatever their task and seed."""
+"""Which runs belong together: the same method, settings and locomotion models, whatever their task and seed."""
 
 from __future__ import annotations
 
@@ -36,17 +36,20 @@ class Grouping:
         return [(group.key, self.cells[task, group.key]) for group in self.groups if (task, group.key) in self.cells]
 
 
-def group_runs(runs: Sequence[ComparedRun], variants: Mapping[str, Variant]) -> Grouping:
+def group_runs(
+    runs: Sequence[ComparedRun], variants: Mapping[str, Variant], models: Mapping[str, str] | None = None
+) -> Grouping:
     """Sort runs into groups; of several with the same task, group and seed one stays.
 
     It is one that went to its end, if there is one, else one that has logged something; of equals the newest.
 
     Args:
         variants: the settings by which each run deviates from its preset, by run id.
+        models: what the locomotion models are called that runs have learnt from, by run id.
     """
     whole = {run.id: ((PRESET, run.preset), *variants[run.id]) for run in runs}
     names = sorted(distinguishing(whole.values()))
-    words = {run.id: label(whole[run.id], names) for run in runs}
+    words = _with_models(runs, {run.id: label(whole[run.id], names) for run in runs}, models or {})
     groups = _make_groups({(run.method, words[run.id]) for run in runs})
     keys = {(group.method, group.variant): group.key for group in groups}
     cells: dict[tuple[str, str], list[ComparedRun]] = {}
@@ -59,6 +62,21 @@ def group_runs(runs: Sequence[ComparedRun], variants: Mapping[str, Variant]) -> 
         else:
             cell.append(run)
     return Grouping(groups, cells, left_out)
+
+
+def _with_models(runs: Sequence[ComparedRun], words: Mapping[str, str], models: Mapping[str, str]) -> dict[str, str]:
+    """Return the words for each run, with its models where runs of the same task, method and words differ in those."""
+    alike: dict[tuple[str, str, str], set[str]] = {}
+    for run in runs:
+        if run.id in models:
+            alike.setdefault((run.task, run.method, words[run.id]), set()).add(models[run.id])
+    told: dict[str, str] = {}
+    for run in runs:
+        parts = [words[run.id]] if words[run.id] else []
+        if run.id in models and len(alike[run.task, run.method, words[run.id]]) > 1:
+            parts.append(f"locomotion {models[run.id]}")
+        told[run.id] = ", ".join(parts)
+    return told
 
 
 def _place(run: ComparedRun) -> tuple[int, str, int, bool, int, int]:

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 from backend.comparison.groups import Grouping, group_runs
 from backend.comparison.memory import ComparisonMemory
-from backend.store.compared_runs import ComparedRun, RunChoice, find_compared_runs
+from backend.comparison.models import name_models
+from backend.store.compared_runs import ComparedRun, RunChoice, find_compared_runs, read_configs
 from backend.store.database import Database
 
 
@@ -22,7 +23,9 @@ class Selection:
 
     def group(self) -> Grouping:
         """Sort the runs into groups."""
-        return group_runs(self.runs, self.memory.variants(self.db, self.runs))
+        needed = sorted({run_id for run in self.runs for run_id in run.needs})
+        models = name_models(self.runs, read_configs(self.db, needed) if needed else {})
+        return group_runs(self.runs, self.memory.variants(self.db, self.runs), models)
 
 
 def select_runs(db: Database, memory: ComparisonMemory, choice: RunChoice) -> Selection:

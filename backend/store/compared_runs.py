@@ -50,6 +50,8 @@ class ComparedRun:
     state: RunState
     newest_step_id: int
     """The id of its newest point of metrics; 0 if it has none. What it has logged does not change without this."""
+    needs: tuple[str, ...] = ()
+    """Ids of the locomotion runs that it learns from, deleted ones among them."""
 
 
 @dataclass(frozen=True)
@@ -81,7 +83,8 @@ def find_compared_runs(db: Database, choice: RunChoice) -> ComparedRuns:
         _check_study(conn, choice.study_id)
         rows = conn.execute(query).all()
         total = len(rows) if len(rows) < RUNS_AT_MOST else _count(conn, conditions)
-    return ComparedRuns([_compared_run(row) for row in reversed(rows)], total)
+        needs = _read_needs(conn, [row.id for row in rows])
+    return ComparedRuns([_compared_run(row, needs.get(row.id, ())) for row in reversed(rows)], total)
 
 
 def read_configs(db: Database, run_ids: Sequence[str]) -> dict[str, dict[str, Any]]:
@@ -94,9 +97,16 @@ def read_configs(db: Database, run_ids: Sequence[str]) -> dict[str, dict[str, An
 _COLUMNS = ("id", "number", "task", "phase", "method", "seed", "preset", "attempt", "config_hash", "state")
 
 
-def _compared_run(row: AnyRow) -> ComparedRun:
+def _compared_run(row: AnyRow, needs: Sequence[str]) -> ComparedRun:
     *columns, state, newest = row
-    return ComparedRun(*columns, state=RunState(state), newest_step_id=newest or 0)
+    return ComparedRun(*columns, state=RunState(state), newest_step_id=newest or 0, needs=tuple(needs))
+
+
+def _read_needs(conn: Connection, run_ids: Sequence[str]) -> dict[str, list[str]]:
+    needs: dict[str, list[str]] = {}
+    for run_id, needed in conn.execute(select(run_needs).where(run_needs.c.run_id.in_(run_ids))):
+        needs.setdefault(run_id, []).append(needed)
+    return needs
 
 
 def _conditions(choice: RunChoice) -> list[ColumnElement[bool]]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import scipy.stats
@@ -13,15 +15,19 @@ from backend.comparison.best import compare_best
 from backend.comparison.configs import compare_configs
 from backend.comparison.curves import CurveView, compare_curves
 from backend.comparison.memory import ComparisonMemory
+from backend.comparison.models import name_models
 from backend.comparison.records import CurveComparison, GroupCurve, Numbers, Statistic
 from backend.store.claims import Claim
-from backend.store.compared_runs import RunChoice, find_compared_runs
+from backend.store.compared_runs import ComparedRun, RunChoice, find_compared_runs
 from backend.store.database import Database
 from backend.store.errors import NotFound
 from backend.store.launches import launch
 from backend.store.metrics import MetricPoint, append_metrics, read_metrics
 from backend.store.outcomes import Failed, HandedBack, Succeeded
 from backend.store.queue import finish
+from backend.store.states import RunState
+from sldr_core.config import config_to_dict
+from sldr_core.presets import make_config
 
 SUCCESS = "test/success_rate"
 
@@ -74,6 +80,30 @@ def test_the_legend_says_statistic_number_and_level(sample_db: Database):
         "iqm": "interquartile mean of 3 seeds, band: 90 % confidence (bootstrap over seeds)",
         "seeds": "3 seeds, each by itself",
     }
+
+
+def test_runs_of_one_config_that_learn_from_different_models_are_two_curves(db: Database):
+    models = [launch(db, order(phase="locomotion", seeds=(seed,)))[0] for seed in (1, 2)]
+    for _ in models:
+        finish(db, claim_next(db), Succeeded(1.0))
+    for model in models:
+        launch(db, order(method="her-sldr", seeds=(0, 1), locomotion=model))
+    for _ in range(4):
+        log(db, claim_next(db), {1: 0.5})
+    comparison = compare(db)
+    assert {group.variant for group in comparison.groups} == {f"locomotion {model}" for model in models}
+    assert [curve.n for curve in comparison.panels[0].curves] == [2, 2]
+    assert comparison.left_out == []
+
+
+def test_a_model_that_was_trained_again_or_on_another_machine_is_the_same_model():
+    config = config_to_dict(make_config("FetchPush", "locomotion", "her", 0, "smoke"))
+    elsewhere = {**config, "compute": {**config["compute"], "threads": 7}}
+    other = {**config, "seed": 1}
+    run = ComparedRun("a", 1, "FetchPush", "manipulation", "her-sldr", 0, "smoke", 1, "hash", RunState.SUCCEEDED, 5)
+    runs = [replace(run, id=needed, needs=(needed,)) for needed in ("first", "second", "third", "gone")]
+    names = name_models(runs, {"first": config, "second": elsewhere, "third": other})
+    assert names == {"first": "first", "second": "first", "third": "third"}
 
 
 def test_ragged_seeds_are_counted_where_they_are_and_the_loss_is_marked(db: Database):

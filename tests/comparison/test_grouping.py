@@ -85,6 +85,32 @@ def test_presets_are_told_apart():
     assert [group.variant for group in group_runs(runs, {"a": (), "b": ()}).groups] == ["paper", "quick"]
 
 
+def test_runs_that_learn_from_different_locomotion_runs_are_told_apart_where_nothing_else_does():
+    sldr = replace(RUN, method="her-sldr")
+    runs = [
+        replace(sldr, id="a"),
+        replace(sldr, id="b", seed=1),
+        replace(sldr, id="c"),
+        replace(sldr, id="d", seed=2),
+        replace(sldr, id="e", task="FetchSlide"),
+    ]
+    models = {"a": "good", "b": "good", "c": "bad", "e": "slides"}
+    grouping = group_runs(runs, {run.id: () for run in runs}, models)
+    assert {key: [run.id for run in cell] for key, cell in grouping.cells.items()} == {
+        ("FetchPush", "her-sldr"): ["d"],
+        ("FetchPush", "her-sldr|locomotion bad"): ["c"],
+        ("FetchPush", "her-sldr|locomotion good"): ["a", "b"],
+        ("FetchSlide", "her-sldr"): ["e"],
+    }
+    assert grouping.left_out == []
+
+
+def test_one_locomotion_run_tells_nothing_apart():
+    runs = [RUN, replace(RUN, id="b", method="her-sldr"), replace(RUN, id="c", method="her-sldr", seed=1)]
+    groups = group_runs(runs, {run.id: () for run in runs}, {"b": "good", "c": "good"}).groups
+    assert [group.key for group in groups] == ["her", "her-sldr"]
+
+
 def test_tasks_come_in_the_paper_s_order_and_seeds_ascend():
     runs = [
         replace(RUN, id="a", task="HandEggFull"),
