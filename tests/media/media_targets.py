@@ -34,6 +34,19 @@ def see_nothing(host: Connection, host_pid: int) -> None:
     time.sleep(60.0)
 
 
+def see_from_the_second_time_on(host: Connection, host_pid: int) -> None:
+    """Be a machine that gets EGL while its host works."""
+    order: DrawOrder = host.recv()
+    mark = order.target.with_name("has-egl")
+    if mark.exists():
+        order.target.write_bytes(CONTENT)
+        host.send(Drawn(len(CONTENT), "c" * 64))
+    else:
+        mark.touch()
+        host.send(NotDrawn("MuJoCo cannot draw off screen here.", is_machine=True))
+    time.sleep(60.0)
+
+
 def never_answer(host: Connection, host_pid: int) -> None:
     """Hang, as a renderer does that waits for its driver."""
     time.sleep(60.0)

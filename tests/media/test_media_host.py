@@ -122,6 +122,21 @@ def test_a_machine_that_cannot_draw_says_so_once_and_plans_nothing_more(
     assert host.is_idle
 
 
+def test_a_machine_that_can_draw_again_plans_again(
+    db: Database, settings: Settings, held: Claim, make_host: Callable[[Target], MediaHost]
+) -> None:
+    host = make_host(media_targets.see_from_the_second_time_on)
+    assert tick_until_ended(host, db, ordered(db, held).id).state == "failed"
+    assert tick_until_ended(host, db, ordered(db, held, "next.mp4").id).state == "done"
+    path = settings.run_directory(held.run_id) / THUMBNAIL_SOURCE
+    path.write_bytes(b"a policy")
+    store_file(db, settings, held, path, "policy")
+
+    host.tick()
+
+    assert not host.is_idle
+
+
 def test_missing_egl_is_the_one_sentence_with_the_packages(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setattr(render, "EGL_LIBRARY", "libEGL-that-is-not-there.so.1")
     reply = answer(DrawOrder("video", tmp_path / "x.npz", tmp_path / "x.mp4", 64, 64, 0))

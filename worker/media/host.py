@@ -159,6 +159,7 @@ class MediaHost:
     def _end(self, drawing: _Drawing, answer: Answer) -> None:
         match answer:
             case Drawn(size, sha256):
+                self._cannot_draw = False
                 self._keep(drawing, size, sha256)
             case NotDrawn(reason, is_machine):
                 self._cannot_draw = is_machine
