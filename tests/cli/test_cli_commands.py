@@ -86,6 +86,12 @@ TRAIN = ("train", "--task", "FetchPush", "--method", "her", "--preset", "smoke")
         (("render", "--task", "FetchPush", "--out", "no/such/a.png"), "there is no directory"),
         (("render", "--task", "FetchPush", "--out", "a.png", "--width", "0"), "at least one pixel"),
         (("worker", "--slots", "0"), "slots: a worker needs at least 1, got 0"),
+        (("worker", "--cores", "4"), "cores: only on a cluster are they set aside for runs; add --executor ray"),
+        (("accounts", "--role", "admin"), "role: whose it is to be is not said; name the account with --invite"),
+        (
+            ("export", "figure", "--out", "a.svg", "--study-file", "sample", "--server", "http://127.0.0.1:1"),
+            "server: a study file has the runs already",
+        ),
         (("viewer", "--port", "8080"), "port: views for the page need none; it is for --policy"),
         (("serve", "--port", "0"), "port: it must be between 1 and 65535, got 0"),
         (("serve", "--workers", "-1"), "workers: it must be 0 or more, got -1"),

@@ -17,7 +17,7 @@ COMMANDS = {
     "node": "Make this machine a node of a cluster.",
     "viewer": "Serve 3D views of policies to the page.",
     "launch": "Queue runs, or a study of them, for the workers.",
-    "runs": "List the runs in the store.",
+    "runs": "List runs.",
     "train": "Train here and now, without page and queue.",
     "evaluate": "Measure the success of a trained policy.",
     "replay": "Simulate recorded episodes again and compare every bit.",

@@ -35,6 +35,8 @@ def accounts(invite: str | None = None, role: Role | None = None, close: str | N
         role: Its role; a new account without one is a viewer.
         close: Name of the account that nobody may sign in to any more.
     """
+    if role is not None and invite is None:
+        raise InvalidConfig({"role": "whose it is to be is not said; name the account with --invite"})
     with closing(open_database(load_settings())) as db:
         if close is not None:
             change_account(db, _find(db, close).id, AccountChange(disabled=True))

@@ -65,6 +65,18 @@ class Chosen:
     server: Server = None
     """The service that has them, as http://127.0.0.1:8000 (default: SLDR_URL, else the store of this machine)."""
 
+    def named_server(self) -> str | None:
+        """Return the service to ask; None if the runs are in a study file, or in the store of this machine.
+
+        Raises:
+            InvalidConfig: both a service and a study file are given.
+        """
+        if self.study_file is None:
+            return find_named_server(self.server)
+        if self.server is not None:
+            raise InvalidConfig({"server": "a study file has the runs already; leave one of the two out"})
+        return None
+
     def choice(self) -> RunChoice:
         """Return the choice as the store takes it."""
         return RunChoice(self.phase, self.task, self.method, self.preset, self.run, self.study)
@@ -138,7 +150,7 @@ def figure(out: Path, runs: Runs, view: View, kind: Literal["curves", "best"] = 
     form = out.suffix.removeprefix(".")
     if form not in FIGURES:
         raise UnknownName("kind of figure", form, FIGURES)
-    if runs.study_file is None and (server := find_named_server(runs.server)) is not None:
+    if (server := runs.named_server()) is not None:
         _check_place(out)
         fetch_figure(server, out, kind, runs.question() | view.question())
         return _tell(out)
@@ -158,7 +170,7 @@ def bundle(out: Path, runs: Runs, view: View, anonymous: bool = False) -> int:
         view: How they are shown.
         anonymous: Leave out what tells who made it, and where.
     """
-    if runs.study_file is None and (server := find_named_server(runs.server)) is not None:
+    if (server := runs.named_server()) is not None:
         _check_place(out)
         fetch_bundle(server, out, anonymous, runs.question() | view.question())
         return _tell(out)
@@ -178,6 +190,8 @@ def study(
     half: bool = False,
 ) -> int:
     """Pack a study into one file that `sldr import` takes in elsewhere: curves, configs, policies, a few episodes.
+
+    The study is one of this machine's store; SLDR_URL is not asked.
 
     Args:
         study: The id of the study.
@@ -244,7 +258,7 @@ def mlflow(uri: Annotated[str, tyro.conf.arg(metavar="URI")], runs: Runs) -> int
 
 
 def _exported(runs: Chosen) -> Iterator[ExportedRun]:
-    if runs.study_file is None and (server := find_named_server(runs.server)) is not None:
+    if (server := runs.named_server()) is not None:
         yield from fetch_exported(server, runs.question())
         return
     with open_source(runs.study_file) as db:

@@ -22,6 +22,8 @@ def main(arguments: Sequence[str]) -> int:
 def take_in(file: tyro.conf.Positional[Path]) -> int:
     """Take in a study file; the same file twice is the same study.
 
+    It goes into the store of this machine; SLDR_URL is not asked.
+
     Args:
         file: The .zip file that `sldr export study` has written.
     """
