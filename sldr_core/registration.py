@@ -1,8 +1,4 @@
-"""Every task as a gymnasium environment, by name: `gymnasium.make("sldr/FetchStack2-v0")`.
-
-Gymnasium finds `register_envs` through the package's entry point; it is light, as it runs with every
-`import gymnasium`. Where the package is not installed, call it.
-"""
+"""Every task as a gymnasium environment, by name: `gymnasium.make("sldr/FetchStack2-v0")` after `register_envs()`."""
 
 from __future__ import annotations
 

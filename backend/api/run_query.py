@@ -49,7 +49,10 @@ class RunQuery:
     success_to: SuccessBound = None
     search: Annotated[
         str | None,
-        Query(max_length=200, description="Words that id, task, method, phase, preset, state, a tag or notes hold."),
+        Query(
+            max_length=200,
+            description="Words that task, method, phase, preset, state, a tag or notes hold, seeds, beginnings of ids.",
+        ),
     ] = None
     deleted: Annotated[bool, Query(description="The runs that a person hid, instead of all others.")] = False
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from sldr_core.config import Phase, Robot, Variant
 from sldr_core.envs import Observation, make_envs
+from sldr_core.errors import InvalidConfig
 
 CONTROL_RATE = 25
 """Control steps per second."""
@@ -33,8 +34,17 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]]):
         robot: Robot = "auto",
         testing: bool = False,
         variant: Variant = "ours",
+        render_mode: str | None = None,
     ) -> None:
-        """Build the simulation; the arguments are those of `make_envs`."""
+        """Build the simulation; the arguments are those of `make_envs`.
+
+        Raises:
+            InvalidConfig: it is asked to render.
+        """
+        if render_mode is not None:
+            raise InvalidConfig(
+                {"render_mode": "these environments draw nothing; leave it out (`sldr viewer` shows policies in 3D)."}
+            )
         seed = int(np.random.SeedSequence().generate_state(1)[0])
         self.envs = make_envs(task, phase, seed=seed, robot=robot, testing=testing, variant=variant)
         self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (self.envs.action_size,), np.float32)

@@ -13,6 +13,7 @@ from gymnasium.utils.env_checker import check_env
 
 from sldr_core.config import LOCOMOTION_TASKS, TASKS, Phase
 from sldr_core.envs import make_envs
+from sldr_core.errors import InvalidConfig
 from sldr_core.registration import Registered, register_envs, registered_envs
 
 ALL = list(registered_envs())
@@ -71,6 +72,14 @@ def test_an_episode_ends_by_its_time_limit_and_its_rewards_can_be_computed_again
     assert env.spec is not None
     assert len(rewards) == env.spec.max_episode_steps
     np.testing.assert_array_equal(again, rewards)
+
+
+def test_who_asks_for_pictures_is_told_where_they_are() -> None:
+    with (
+        pytest.warns(UserWarning, match="rgb_array"),
+        pytest.raises(InvalidConfig, match="render_mode: these environments draw nothing"),
+    ):
+        gymnasium.make("sldr/FetchPush-v0", render_mode="rgb_array")
 
 
 def test_a_gymnasium_episode_is_that_of_the_batch_with_the_same_seed() -> None:

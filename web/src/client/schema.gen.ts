@@ -7415,7 +7415,7 @@ export interface operations {
                 seed_to?: number | null;
                 success_from?: number | null;
                 success_to?: number | null;
-                /** @description Words that id, task, method, phase, preset, state, a tag or notes hold. */
+                /** @description Words that task, method, phase, preset, state, a tag or notes hold, seeds, beginnings of ids. */
                 search?: string | null;
                 /** @description The runs that a person hid, instead of all others. */
                 deleted?: boolean;
@@ -7517,7 +7517,7 @@ export interface operations {
                 seed_to?: number | null;
                 success_from?: number | null;
                 success_to?: number | null;
-                /** @description Words that id, task, method, phase, preset, state, a tag or notes hold. */
+                /** @description Words that task, method, phase, preset, state, a tag or notes hold, seeds, beginnings of ids. */
                 search?: string | null;
                 /** @description The runs that a person hid, instead of all others. */
                 deleted?: boolean;
@@ -7618,7 +7618,7 @@ export interface operations {
                 seed_to?: number | null;
                 success_from?: number | null;
                 success_to?: number | null;
-                /** @description Words that id, task, method, phase, preset, state, a tag or notes hold. */
+                /** @description Words that task, method, phase, preset, state, a tag or notes hold, seeds, beginnings of ids. */
                 search?: string | null;
                 /** @description The runs that a person hid, instead of all others. */
                 deleted?: boolean;
@@ -7719,7 +7719,7 @@ export interface operations {
                 seed_to?: number | null;
                 success_from?: number | null;
                 success_to?: number | null;
-                /** @description Words that id, task, method, phase, preset, state, a tag or notes hold. */
+                /** @description Words that task, method, phase, preset, state, a tag or notes hold, seeds, beginnings of ids. */
                 search?: string | null;
                 /** @description The runs that a person hid, instead of all others. */
                 deleted?: boolean;

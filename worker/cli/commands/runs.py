@@ -40,7 +40,7 @@ def show(
         task: Only runs of this task.
         method: Only runs of this method.
         phase: Only runs of this phase.
-        search: Words that task, method, phase, preset or state hold, or the beginning of an id.
+        search: Words that task, method, phase, preset, state, a tag or the notes hold; a seed; the beginning of an id.
         limit: How many to list.
         json: Print everything known about each, for programs.
         server: The service to ask, as http://127.0.0.1:8000 (default: SLDR_URL, else what runs here, else the store).
