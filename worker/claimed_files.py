@@ -1,15 +1,18 @@
 """Bringing what a claimed run needs to this machine: its newest checkpoint, if it was trained elsewhere before.
 
-A run's directory says which attempt has last written it. If the checkpoint in the store's list is of a later attempt,
-the directory was left behind; else it is at least as new as what the list has.
+A run's directory says which attempt has last written it, by its fence. If the checkpoint in the store's list is of a
+later attempt, the directory was left behind, as it is if the store does not know the fence: a backup was restored
+since. Else it is at least as new as what the list has.
 """
 
 from __future__ import annotations
 
 import logging
 import os
+from collections.abc import Sequence
 from pathlib import Path
 
+from backend.store.attempts import AttemptRow, list_attempts
 from backend.store.blocks import get_blocks, read_block_list
 from backend.store.claims import Claim
 from backend.store.database import Database
@@ -23,7 +26,7 @@ from worker.patience import FILES_PATIENCE_S, insist
 CHECKPOINT_FILES = ("checkpoint.pt", "checkpoint-previous.pt")
 """Either of them lets a run go on."""
 ATTEMPT_FILE = ".attempt"
-"""Holds the number of the attempt that has last written a run's directory."""
+"""Holds the fence of the attempt that has last written a run's directory."""
 
 log = logging.getLogger(__name__)
 
@@ -45,15 +48,17 @@ def bring_claimed_run(db: Database, settings: Settings, claim: Claim) -> None:
     if shared is not None:
         rows = insist(lambda: list_files(db, claim.run_id))
         checkpoint = next((row for row in rows if row.kind == CHECKPOINT_KIND), None)
-        if checkpoint is not None and _last_attempt(directory) < checkpoint.attempt:
+        last = _last_attempt(directory, insist(lambda: list_attempts(db, claim.run_id)))
+        if last < (1 if checkpoint is None else checkpoint.attempt):
             _leave_old(directory)
+        if checkpoint is not None and last < checkpoint.attempt:
             insist(lambda: _bring_replay(shared, storage, rows, directory), patience_s=FILES_PATIENCE_S)
             _bring_log(storage, rows, directory)
             found = insist(lambda: storage.bring(checkpoint), patience_s=FILES_PATIENCE_S)
             found.rename(directory / checkpoint.name)
             log.info("The checkpoint of attempt %d, made on another machine, was fetched.", checkpoint.attempt)
         FileKeeper(db, storage, claim).sweep()
-    _sign(directory, claim.attempt)
+    _sign(directory, claim.fence)
 
 
 def send_log(db: Database, settings: Settings, claim: Claim) -> None:
@@ -65,16 +70,18 @@ def send_log(db: Database, settings: Settings, claim: Claim) -> None:
     FileKeeper(db, FileStorage(settings), claim).keep_log(settings.run_directory(claim.run_id) / LOG_FILE)
 
 
-def _last_attempt(directory: Path) -> int:
-    """Return the attempt that has last written a directory; 0 if nothing can be resumed there."""
+def _last_attempt(directory: Path, attempts: Sequence[AttemptRow]) -> int:
+    """Return which of the run's attempts has last written a directory; 0 if nothing can be resumed there."""
     signed = directory / ATTEMPT_FILE
-    is_resumable = any((directory / name).is_file() for name in CHECKPOINT_FILES)
-    return int(signed.read_text()) if signed.exists() and is_resumable else 0
+    if not signed.exists() or not any((directory / name).is_file() for name in CHECKPOINT_FILES):
+        return 0
+    fence = int(signed.read_text())
+    return next((attempt.attempt for attempt in attempts if attempt.fence == fence), 0)
 
 
-def _sign(directory: Path, attempt: int) -> None:
+def _sign(directory: Path, fence: int) -> None:
     temporary = directory / f"{ATTEMPT_FILE}.{os.getpid()}.tmp"
-    temporary.write_text(str(attempt))
+    temporary.write_text(str(fence))
     temporary.rename(directory / ATTEMPT_FILE)
 
 

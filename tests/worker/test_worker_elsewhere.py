@@ -11,6 +11,8 @@ import pytest
 import torch
 
 from backend.store import files
+from backend.store.backups.make import make_backup
+from backend.store.backups.restore import restore_backup
 from backend.store.claims import Claim
 from backend.store.database import Database
 from backend.store.errors import FilesUnavailable, StaleFence
@@ -169,6 +171,29 @@ def test_a_machine_that_trained_last_goes_on_from_its_own_directory(db: Database
     directory = begin(db, here, hand_over(db, first)).directory
 
     assert (directory / CHECKPOINT_FILE).read_bytes().startswith(b"newer")
+
+
+@pytest.mark.parametrize("is_saved_before", [True, False])
+def test_after_a_restore_a_machine_leaves_what_it_trained_since_the_backup(
+    db: Database, here: Settings, there: Settings, first: Claim, tmp_path: Path, is_saved_before: bool
+) -> None:
+    there.home.mkdir()
+    if is_saved_before:
+        save(db, here, first, b"before the backup")
+    make_backup(there, tmp_path / "kept", overwrite=False, tell=lambda _: None)
+    save(db, here, first, b"after the backup")
+    save(db, here, hand_over(db, first), b"the next day")
+    restore_backup(there, tmp_path / "kept", overwrite=True, tell=lambda _: None)
+
+    again = next_claim(db)
+    checkpoint = begin(db, here, again).directory / CHECKPOINT_FILE
+
+    assert (checkpoint.read_bytes() if checkpoint.exists() else None) == (
+        b"before the backup" if is_saved_before else None
+    )
+    save(db, here, again, b"trained again")
+    directory = begin(db, here, hand_over(db, again)).directory
+    assert (directory / CHECKPOINT_FILE).read_bytes() == b"trained again"
 
 
 def test_what_no_row_holds_any_more_is_removed(db: Database, here: Settings, first: Claim) -> None:

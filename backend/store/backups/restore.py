@@ -26,6 +26,7 @@ from backend.store.settings import Settings
 from backend.store.states import RunState
 from backend.store.storage import FileStorage
 from backend.store.tables import (
+    attempts,
     metadata,
     run_files,
     runs,
@@ -139,11 +140,16 @@ def _settle(conn: Connection) -> int:
 
 
 def _leap(conn: Connection) -> None:
-    """Raise every fence, and with it the occasion of what was told of a failed run: it would be told once more."""
+    """Raise every fence, and with it what goes by one.
+
+    The occasion of what was told of a failed run, which would be told once more, and the fences of past attempts:
+    what a machine has trained since the backup bears a lower one, and nobody takes it for a part of what was restored.
+    """
     fence = select(runs.c.fence).where(runs.c.id == webhook_deliveries.c.subject).scalar_subquery()
     told = (webhook_deliveries.c.event == "run_failed", webhook_deliveries.c.occasion == cast(fence, String))
     conn.execute(update(webhook_deliveries).where(*told).values(occasion=cast(fence + FENCE_LEAP, String)))
-    conn.execute(update(runs).values(fence=runs.c.fence + FENCE_LEAP))
+    for table in (runs, attempts):
+        conn.execute(update(table).values(fence=table.c.fence + FENCE_LEAP))
 
 
 def _place_files(archived: Database, placer: FilePlacer, tell: Tell) -> None:
@@ -155,8 +161,8 @@ def _place_files(archived: Database, placer: FilePlacer, tell: Tell) -> None:
             path = placer.place(row.run_id, row.name, row.attempt, row.sha256)
             this = (run_files.c.run_id == row.run_id, run_files.c.name == row.name)
             conn.execute(update(run_files).where(*this).values(path=path))
-        attempts = {row.id: row.attempt for row in conn.execute(select(runs.c.id, runs.c.attempt))}
-        for values in placer.place_unlisted(attempts):
+        newest = {row.id: row.attempt for row in conn.execute(select(runs.c.id, runs.c.attempt))}
+        for values in placer.place_unlisted(newest):
             conn.execute(insert(run_files).values(**values, created_at=current_time(conn)))
 
 
