@@ -56,6 +56,8 @@ def _summary_fields(row: RunRow) -> dict[str, Any]:
         "created_at": row.created_at,
         "started_at": row.started_at,
         "ended_at": row.ended_at,
+        "trained_s": row.training_time.ended_s,
+        "training_since": row.training_time.since,
         "cancel_requested": row.cancel_requested,
         "pause_requested": row.pause_requested,
         "is_below_gate": row.is_below_gate,

@@ -152,6 +152,10 @@ class RunSummary(Strict):
     created_at: datetime
     started_at: datetime | None
     ended_at: datetime | None
+    trained_s: float = Field(
+        description="Time of its attempts that have ended, in seconds; pauses and waits between them do not count."
+    )
+    training_since: datetime | None = Field(description="When the attempt began that runs; null if none does.")
     cancel_requested: bool = Field(description="It will end; its worker has not ended it yet.")
     pause_requested: bool = Field(description="It will pause; its worker has not paused it yet.")
     is_below_gate: bool = Field(description="Only its gate holds it back, so that it can be released.")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, field
 from statistics import median
 
@@ -10,7 +9,8 @@ from sqlalchemy import Connection, select
 
 from backend.store.runs import RunRow
 from backend.store.states import RunState
-from backend.store.tables import attempts, runs
+from backend.store.tables import runs
+from backend.store.training_time import read_training_times
 
 MEASURED_AT_MOST = 500
 """So many of the newest succeeded runs are looked at."""
@@ -41,18 +41,14 @@ def measure_durations(conn: Connection) -> Durations:
         .where(runs.c.state == RunState.SUCCEEDED, runs.c.origin.is_(None))
         .order_by(runs.c.number.desc())
         .limit(MEASURED_AT_MOST)
-        .subquery()
     )
-    query = select(newest, attempts.c.started_at, attempts.c.ended_at).join(attempts, attempts.c.run_id == newest.c.id)
-    seconds: dict[str, float] = {}
-    likened: dict[str, Iterable[Like]] = {}
-    for row in conn.execute(query.where(attempts.c.ended_at.is_not(None))):
-        seconds[row.id] = seconds.get(row.id, 0.0) + (row.ended_at - row.started_at).total_seconds()
-        likened[row.id] = likenesses(row.task, row.phase, row.method, row.preset)
+    found = conn.execute(newest).all()
+    times = read_training_times(conn, [row.id for row in found])
     durations = Durations()
-    for run_id, of_run in likened.items():
-        for likeness in of_run:
-            durations.by_likeness.setdefault(likeness, []).append(seconds[run_id])
+    for row in found:
+        if row.id in times:
+            for likeness in likenesses(row.task, row.phase, row.method, row.preset):
+                durations.by_likeness.setdefault(likeness, []).append(times[row.id].ended_s)
     return durations
 
 

@@ -7,11 +7,12 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import Any, Literal, get_args
 
-from sqlalchemy import ColumnElement, and_, case, extract, func, literal, or_
+from sqlalchemy import ColumnElement, and_, case, or_
 
 from backend.store.metric_columns import MetricColumn, parse_column
 from backend.store.states import RunState
-from backend.store.tables import UtcDateTime, run_progress, runs
+from backend.store.tables import run_progress, runs
+from backend.store.training_time import training_seconds
 from sldr_core.errors import InvalidConfig
 
 SortKey = Literal[
@@ -81,8 +82,7 @@ def order_value(
         "best": run_progress.c.best_success_rate,
         "speed": case((is_running, run_progress.c.env_steps_per_s)),
         "left": case((is_running, run_progress.c.seconds_left)),
-        "duration": extract("epoch", func.coalesce(runs.c.ended_at, literal(now, UtcDateTime())))
-        - extract("epoch", runs.c.started_at),
+        "duration": training_seconds(now),
     }
     return values[order.by] if order.by in values else runs.c[order.by]
 

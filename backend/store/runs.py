@@ -20,6 +20,7 @@ from backend.store.run_order import RunOrder, comes_after, order_value, sorted_b
 from backend.store.states import Event, RunState
 from backend.store.tables import AnyRow, run_events, run_needs
 from backend.store.tables import runs as run_table
+from backend.store.training_time import NOT_TRAINED, TrainingTime, read_training_times
 from sldr_core.errors import InvalidConfig
 
 NEWEST_FIRST = RunOrder()
@@ -77,6 +78,8 @@ class RunRow:
     """What people call it, in the order of the alphabet."""
     notes: str = ""
     """What people wrote about it, as plain text."""
+    training_time: TrainingTime = NOT_TRAINED
+    """How long it was trained."""
 
     @property
     def config(self) -> dict[str, Any]:
@@ -231,7 +234,8 @@ def run_rows(
     for edge in conn.execute(query):
         needs.setdefault(edge.run_id, []).append(edge)
     tags = select_tags(conn, ids)
-    return [_run_row(row, needs.get(row.id, []), tags.get(row.id, ())) for row in rows]
+    times = read_training_times(conn, ids)
+    return [_run_row(row, needs.get(row.id, []), tags.get(row.id, ()), times.get(row.id, NOT_TRAINED)) for row in rows]
 
 
 _COLUMNS = [
@@ -245,7 +249,7 @@ def _in_order(conn: Connection, run_ids: Sequence[str]) -> list[RunRow]:
     return [by_id[run_id] for run_id in run_ids if run_id in by_id]
 
 
-def _run_row(row: AnyRow, needs: Sequence[AnyRow], tags: tuple[str, ...]) -> RunRow:
+def _run_row(row: AnyRow, needs: Sequence[AnyRow], tags: tuple[str, ...], training_time: TrainingTime) -> RunRow:
     unmet = tuple(edge.needs_run_id for edge in needs if edge.state != RunState.SUCCEEDED)
     return RunRow(
         id=row.id,
@@ -278,4 +282,5 @@ def _run_row(row: AnyRow, needs: Sequence[AnyRow], tags: tuple[str, ...]) -> Run
         settings_hash=row.settings_hash or "",
         tags=tags,
         notes=row.notes or "",
+        training_time=training_time,
     )

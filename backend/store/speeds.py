@@ -10,7 +10,8 @@ from sqlalchemy import Connection, select
 from backend.store.durations import MEASURED_AT_MOST, Like, likenesses
 from backend.store.run_plans import PlannedRun
 from backend.store.states import RunState
-from backend.store.tables import attempts, run_progress, runs
+from backend.store.tables import run_progress, runs
+from backend.store.training_time import read_training_times
 from sldr_core.config import settings_hash
 from sldr_core.presets.budget import control_steps, gradient_updates
 
@@ -65,25 +66,15 @@ def measure_speeds(conn: Connection) -> Speeds:
     )
     found = conn.execute(newest).all()
     ids = [row.id for row in found]
-    seconds = _training_seconds(conn, ids)
+    times = read_training_times(conn, ids)
     progress = {row.run_id: row for row in conn.execute(select(run_progress).where(run_progress.c.run_id.in_(ids)))}
     speeds = Speeds()
     for row in found:
-        if row.id in seconds:
-            speeds.seconds_of.setdefault(row.settings_hash, []).append(seconds[row.id])
+        if row.id in times:
+            speeds.seconds_of.setdefault(row.settings_hash, []).append(times[row.id].ended_s)
         measured = progress.get(row.id)
         if measured and measured.env_steps_per_s and measured.updates_per_s:
             speed = Speed(measured.env_steps_per_s, measured.updates_per_s)
             for likeness in likenesses(row.task, row.phase, row.method, row.preset):
                 speeds.by_likeness.setdefault(likeness, []).append(speed)
     return speeds
-
-
-def _training_seconds(conn: Connection, run_ids: list[str]) -> dict[str, float]:
-    """Return the time that the attempts of runs took, whatever they waited between them [s]."""
-    query = select(attempts.c.run_id, attempts.c.started_at, attempts.c.ended_at)
-    ended = (attempts.c.run_id.in_(run_ids), attempts.c.ended_at.is_not(None))
-    seconds: dict[str, float] = {}
-    for row in conn.execute(query.where(*ended)):
-        seconds[row.run_id] = seconds.get(row.run_id, 0.0) + (row.ended_at - row.started_at).total_seconds()
-    return seconds

@@ -3266,6 +3266,16 @@ export interface components {
             tags: string[];
             /** Task */
             task: string;
+            /**
+             * Trained S
+             * @description Time of its attempts that have ended, in seconds; pauses and waits between them do not count.
+             */
+            trained_s: number;
+            /**
+             * Training Since
+             * @description When the attempt began that runs; null if none does.
+             */
+            training_since: string | null;
         };
         /**
          * RunEvent
@@ -3472,6 +3482,16 @@ export interface components {
             tags: string[];
             /** Task */
             task: string;
+            /**
+             * Trained S
+             * @description Time of its attempts that have ended, in seconds; pauses and waits between them do not count.
+             */
+            trained_s: number;
+            /**
+             * Training Since
+             * @description When the attempt began that runs; null if none does.
+             */
+            training_since: string | null;
         };
         /**
          * SampleImport

@@ -108,6 +108,8 @@ export const RUN: RunSummary = {
   created_at: '2026-01-01T10:00:00Z',
   started_at: '2026-01-01T10:00:05Z',
   ended_at: null,
+  trained_s: 0,
+  training_since: '2026-01-01T10:00:05Z',
   cancel_requested: false,
   pause_requested: false,
   is_below_gate: false,

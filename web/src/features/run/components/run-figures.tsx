@@ -50,5 +50,6 @@ function Figure({ name, isWide, children }: { name: string; isWide?: boolean; ch
 
 function Duration({ run }: { run: RunDetail }) {
   const now = useNow();
-  return <>{formatDuration(secondsBetween(run.started_at, run.state === 'running' ? now : run.ended_at))}</>;
+  if (run.started_at === null) return NOTHING;
+  return <>{formatDuration(run.trained_s + (secondsBetween(run.training_since, now) ?? 0))}</>;
 }

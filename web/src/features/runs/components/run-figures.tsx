@@ -38,18 +38,15 @@ export function Speed({ run }: { run: RunSummary }) {
   );
 }
 
-/** How long a run has been trained. */
+/** How long a run has been trained; pauses and waits do not count. */
 export function Elapsed({ run }: { run: RunSummary }) {
-  return run.state === 'running' && run.started_at !== null ? (
-    <Running since={run.started_at} />
-  ) : (
-    formatDuration(secondsBetween(run.started_at, run.ended_at))
-  );
+  if (run.training_since !== null) return <Running since={run.training_since} before={run.trained_s} />;
+  return <>{run.started_at === null ? NOTHING : formatDuration(run.trained_s)}</>;
 }
 
-function Running({ since }: { since: string }) {
+function Running({ since, before }: { since: string; before: number }) {
   const now = useNow();
-  return <>{formatDuration(secondsBetween(since, now))}</>;
+  return <>{formatDuration(before + (secondsBetween(since, now) ?? 0))}</>;
 }
 
 /** How long ago it was launched; the moments of launch and start on hover. */
