@@ -259,6 +259,18 @@ def test_a_study_of_which_nothing_has_succeeded_is_not_packed(db: Database, sett
     assert not (tmp_path / "out.zip").exists()
 
 
+def test_a_study_that_no_import_would_take_is_not_packed(
+    db: Database, settings: Settings, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    study_id = trained_study(db, settings)
+    monkeypatch.setattr("backend.store.study_files.packing.LARGEST_SUM", 2000)
+
+    with pytest.raises(Refused, match=r"'Two methods' holds more than .* --episodes-of none --half"):
+        pack_study(db, settings, study_id, tmp_path / "study.zip")
+
+    assert not list(tmp_path.glob("*study*"))
+
+
 def test_what_has_not_succeeded_is_left_out(db: Database, settings: Settings, tmp_path: Path) -> None:
     study_id = trained_study(db, settings)
 

@@ -24,6 +24,7 @@ from backend.store.states import RunState
 from backend.store.storage import FileStorage
 from backend.store.studies.launch import find_study
 from backend.store.studies.spec import LONGEST_NOTE, on_one_line
+from backend.store.study_files.archive import LARGEST_SUM
 from backend.store.study_files.chosen_files import EPISODES, EpisodeChoice, choose_files, keeps_episodes, kind_of
 from backend.store.study_files.machines import count_machines, find_machines
 from backend.store.study_files.records import (
@@ -102,7 +103,7 @@ def pack_study(
 
     Raises:
         NotFound: there is no such study.
-        Refused: none of its runs has succeeded yet.
+        Refused: none of its runs has succeeded yet, or it is larger than what is taken in elsewhere.
         FileGone: a file of a run is no longer there.
         BadFile: it has changed since it was registered.
         FilesUnavailable: the shared place cannot be read just now.
@@ -116,10 +117,13 @@ def pack_study(
         with ZipFile(path, "w", ZIP_DEFLATED, compresslevel=9) as archive:
             packed_places = {row.id: members.places[row.id] for row in members.robots}
             records: list[RunRecord] = []
+            size = 0
             for row in packed_runs:
                 files = choose_files(list_files(db, row.id), keeps_episodes(episodes_of, row.id, packed_places))
                 packed_files = [_pack_file(storage, archive, file, read_weights) for file in files]
                 records.append(_pack_run(db, archive, row, members, packed_files))
+                size += sum(member.size for member in (*packed_files, records[-1].metrics))
+                _check_size(size, members.study)
             content = StudyFile(
                 format=FORMAT,
                 made_at=datetime.now(UTC),
@@ -132,6 +136,15 @@ def pack_study(
 
     write_atomically(out, write)
     return Packed(len(packed_runs), len(members.places) - len(members.robots), out.stat().st_size)
+
+
+def _check_size(size: int, study: AnyRow) -> None:
+    if size > LARGEST_SUM:
+        raise Refused(
+            f"Study '{study.name}' holds more than the {LARGEST_SUM / 2**30:.0f} GB that an import takes; "
+            f"`sldr export study {study.id} OUT.zip --episodes-of none --half` leaves out what it can. "
+            "If that is too much as well, make two studies of it."
+        )
 
 
 def _find_members(db: Database, study_id: str) -> Members:
