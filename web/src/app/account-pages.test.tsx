@@ -64,6 +64,18 @@ test('an admin closes an account', async () => {
   await waitFor(() => expect(server.bodiesOf('PATCH', '/api/accounts/a1')).toEqual([{ disabled: true }]));
 });
 
+test('the audit log shows all that was asked for, however long it is', async () => {
+  be('admin');
+  const entries = Array.from({ length: 501 }, (_, id) => {
+    return { id, at: AT, who: `who-${id}`, action: 'a', address: 'x', outcome: 'done', target: 't', detail: 'd' };
+  });
+  server.on('GET /api/audit', () => ({ body: { entries, next: null } }));
+  openPage('/accounts');
+  const isTold = (text: string): boolean | undefined => document.body.textContent?.includes(text);
+  await waitFor(() => expect(isTold('who-500')).toBe(true));
+  expect(isTold('CSV')).toBe(false);
+});
+
 test('others are told that accounts are for admins', async () => {
   be('operator');
   openPage('/accounts');

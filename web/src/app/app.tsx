@@ -6,10 +6,10 @@ import { useState } from 'react';
 import type { AppRouter } from '@/app/router';
 import { cssVariables, theme } from '@/app/theme';
 import { Toasts } from '@/components/toasts';
-import { isSignedOut } from '@/lib/access';
+import { isSignedOut, meQuery } from '@/lib/access';
 
 export function App({ router }: { router: AppRouter }) {
-  const [queries] = useState(() => makeQueryClient((error) => askToSignIn(router, error)));
+  const [queries] = useState(() => makeQueryClient(router));
   return (
     <MantineProvider theme={theme} cssVariablesResolver={cssVariables} defaultColorScheme="auto">
       <QueryClientProvider client={queries}>
@@ -22,14 +22,17 @@ export function App({ router }: { router: AppRouter }) {
 }
 
 /** When the server does not know who asks, lead to where that can be said, and back afterwards. */
-function askToSignIn(router: AppRouter, error: unknown): void {
+function askToSignIn(router: AppRouter, queries: QueryClient, error: unknown): void {
   const { href, pathname } = router.state.location;
   if (!isSignedOut(error) || pathname === '/sign-in' || pathname === '/welcome') return;
+  // Whoever was signed in until now is so no more.
+  void queries.resetQueries(meQuery);
   void router.navigate({ to: '/sign-in', search: { from: href } });
 }
 
-function makeQueryClient(onError: (error: unknown) => void): QueryClient {
-  return new QueryClient({
+function makeQueryClient(router: AppRouter): QueryClient {
+  const onError = (error: unknown): void => askToSignIn(router, queries, error);
+  const queries = new QueryClient({
     queryCache: new QueryCache({ onError }),
     mutationCache: new MutationCache({ onError }),
     defaultOptions: {
@@ -38,4 +41,5 @@ function makeQueryClient(onError: (error: unknown) => void): QueryClient {
       mutations: { networkMode: 'always' },
     },
   });
+  return queries;
 }

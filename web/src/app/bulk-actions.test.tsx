@@ -40,6 +40,18 @@ test('an action goes to those of the selected runs that allow it', async () => {
   await waitFor(() => expect(sent()).toEqual([{ action: 'pause', run_ids: ['run-1'] }]));
 });
 
+test('of more runs than the server tells apart no differences are offered', async () => {
+  const all = Array.from({ length: 51 }, (_, seed) => ({ ...RUN, id: `run-${seed}`, seed }));
+  server.on('GET /api/runs', ({ url }) => {
+    const runs = url.searchParams.get('limit') === '51' ? all : RUNS;
+    return { body: { runs, values: runs.map(() => []), next_cursor: null, total: all.length } };
+  });
+  const { user } = openPage('/');
+  await user.click(await screen.findByRole('checkbox', { name: 'Select all runs of this table' }));
+  expect(within(await bar()).getByRole('link', { name: 'Compare' })).toBeTruthy();
+  expect(within(await bar()).queryByRole('link', { name: 'Differences' })).toBeNull();
+});
+
 test('cancelling several asks once', async () => {
   const { user } = openPage('/');
   await user.click(await box(1));

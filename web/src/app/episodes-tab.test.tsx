@@ -1,7 +1,7 @@
 import { screen, waitFor, within } from '@testing-library/react';
 import { beforeEach, expect, test, vi } from 'vitest';
 import { NO_METRICS } from '@/lib/metrics';
-import { EPISODES, TIMELINES } from '@/testing/episode-samples';
+import { EPISODE, EPISODES, TIMELINES } from '@/testing/episode-samples';
 import { type FakeServer, problem } from '@/testing/fake-server';
 import { openPage, startServer } from '@/testing/open-page';
 import { DETAIL } from '@/testing/samples';
@@ -51,6 +51,13 @@ test('one episode shows its timelines, says whether it simulates again, and lead
   expect(link.getAttribute('href')).toBe('/runs/run-1?tab=3d&episode=2.0');
 });
 
+test('the way into 3D keeps what the list is narrowed to', async () => {
+  openPage('/runs/run-1?tab=episodes&tag=too_slow&smooth=0.5');
+  const link = await screen.findByRole('link', { name: 'Watch episode 2.0 in 3D' });
+  const { searchParams } = new URL(link.getAttribute('href') ?? '', window.location.origin);
+  expect(Object.fromEntries(searchParams)).toEqual({ tab: '3d', episode: '2.0', tag: 'too_slow', smooth: '0.5' });
+});
+
 test('the chart of shares is read with the arrow keys, and narrows the list to a test', async () => {
   const { user } = openPage('/runs/run-1?tab=episodes');
   const chart = await screen.findByRole('slider', { name: 'How test episodes ended, by epoch' });
@@ -71,6 +78,20 @@ test('another order leaves the page where it stands, another tab begins at its t
   expect(scrolling).not.toHaveBeenCalled();
   await user.click(screen.getByRole('tab', { name: 'Config' }));
   await waitFor(() => expect(scrolling).toHaveBeenCalled());
+});
+
+test('more episodes are those that follow, so that no answer grows beyond what the server gives', async () => {
+  server.on('GET /api/runs/run-1/episodes', ({ url }) => {
+    const offset = Number(url.searchParams.get('offset'));
+    const rows = [offset, offset + 1].map((index) => ({ ...EPISODE, index }));
+    return { body: { episodes: rows, total: 4, epochs: [2] } };
+  });
+  const { user } = openPage('/runs/run-1?tab=episodes');
+  await user.click(await screen.findByRole('button', { name: 'Show more of 4 episodes' }));
+  expect(await screen.findByRole('button', { name: 'Episode 2.3' })).toBeTruthy();
+  expect(screen.getByRole('button', { name: 'Episode 2.0' })).toBeTruthy();
+  expect(screen.queryByRole('button', { name: /^Show more/ })).toBeNull();
+  expect(asked().at(-1)).toContain('limit=50&offset=2');
 });
 
 test('a file that cannot be read is told in its own words', async () => {

@@ -38,6 +38,17 @@ test('a model of the zoo is not said to be trained', async () => {
   expect(sums.textContent).toBe('Locomotion: 1 from the zoo, 1 reused.');
 });
 
+test('variants that came with a study are said to be kept only while no setting has several values', async () => {
+  const variant = (gamma: number) => ({ name: `v${gamma}`, overrides: { agent: { gamma, polyak: gamma } } });
+  const spec = { ...STUDY.spec, variants: [variant(0.9), variant(0.95)] };
+  server.on('GET /api/studies/study-1', () => ({ body: { ...STUDY, spec } }));
+  const { user } = openPage('/studies/new?from=study-1');
+  expect(await screen.findByText(/are kept as they were/)).toBeTruthy();
+  await user.click(screen.getByRole('button', { name: 'Add a setting' }));
+  await user.type(await screen.findByRole('textbox', { name: /^Values of/ }), '5, 10');
+  await waitFor(() => expect(screen.queryByText(/are kept as they were/)).toBeNull());
+});
+
 test('nobody knows is said where nobody does', async () => {
   const estimate = { ...PREVIEW.estimate, training_s: null, until_done_s: null, unknown_runs: 3 };
   server.on('POST /api/studies/preview', () => ({ body: { ...PREVIEW, estimate } }));

@@ -1,7 +1,7 @@
 import { screen, waitFor, within } from '@testing-library/react';
 import { beforeEach, expect, test } from 'vitest';
 import type { QueueEntry, RunState } from '@/client/schema.gen';
-import { DONE, type FakeServer } from '@/testing/fake-server';
+import { DONE, type FakeServer, problem } from '@/testing/fake-server';
 import { openPage, startServer } from '@/testing/open-page';
 import { RUN } from '@/testing/samples';
 
@@ -56,6 +56,15 @@ test('the new order stands before the server has answered', async () => {
   await waitFor(() => expect(order()).toEqual(['run-1', 'run-3', 'run-2', 'run-4']));
 });
 
+test('a move that the server never hears of is taken back, and that is told', async () => {
+  const { user } = openPage('/queue');
+  const button = await screen.findByRole('button', { name: /seed 2 down$/ });
+  server.isDown = true;
+  await user.click(button);
+  expect(await screen.findByText('The order is as it was.')).toBeTruthy();
+  expect(order()).toEqual(['run-1', 'run-2', 'run-3', 'run-4']);
+});
+
 test('what runs or is blocked has no place to change', async () => {
   openPage('/queue');
   await screen.findByText('A worker trains it.');
@@ -80,6 +89,26 @@ test('a typed priority is sent on Enter', async () => {
   await waitFor(() =>
     expect(server.bodiesOf('PUT', '/api/runs/priority')).toEqual([{ run_ids: ['run-2'], priority: 5 }]),
   );
+});
+
+test('Alt with an arrow key in the field of a priority moves the run, and the priority stays', async () => {
+  const { user } = openPage('/queue');
+  await user.click(await screen.findByRole('textbox', { name: /^Priority of .* seed 2$/ }));
+  await user.keyboard('{Alt>}{ArrowDown}{/Alt}');
+  await waitFor(() => expect(server.bodiesOf('POST', '/api/runs/run-2/move')).toEqual([{ before: null }]));
+  await user.tab();
+  expect(server.bodiesOf('PUT', '/api/runs/priority')).toEqual([]);
+});
+
+test('a priority that is refused is not sent again when the field is left', async () => {
+  server.on('PUT /api/runs/priority', () => problem(409, null, 'It has ended.'));
+  const { user } = openPage('/queue');
+  const field = await screen.findByRole<HTMLInputElement>('textbox', { name: /^Priority of .* seed 2$/ });
+  await user.clear(field);
+  await user.type(field, '5{Enter}');
+  await waitFor(() => expect(field.value).toBe('0'));
+  await user.tab();
+  expect(server.bodiesOf('PUT', '/api/runs/priority')).toHaveLength(1);
 });
 
 test('an empty queue says what to do', async () => {

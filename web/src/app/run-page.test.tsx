@@ -4,7 +4,7 @@ import type { RunDetail } from '@/client/schema.gen';
 import { NO_METRICS } from '@/lib/metrics';
 import type { FakeServer } from '@/testing/fake-server';
 import { openPage, startServer } from '@/testing/open-page';
-import { DETAIL } from '@/testing/samples';
+import { DETAIL, RUN } from '@/testing/samples';
 
 let server: FakeServer;
 beforeEach(() => {
@@ -116,11 +116,13 @@ test('a deleted run can be restored on its own page', async () => {
 
 test('a run below its gate says why and can be released', async () => {
   const reason = 'Its locomotion run run-0 reached 80.0% test success, below the gate of 95.0%.';
-  server.on('GET /api/runs/run-0', () => ({ body: { ...DETAIL, id: 'run-0', state: 'succeeded' } }));
+  const progress = { ...RUN.progress, success_rate: 0.947 };
+  server.on('GET /api/runs/run-0', () => ({ body: { ...DETAIL, id: 'run-0', state: 'succeeded', progress } }));
   const { user } = openRun({ state: 'blocked', is_below_gate: true, reason, needs: ['run-0'] });
   const panel = (await screen.findByText('The object has not learnt well enough')).closest('section');
   if (panel === null) throw new Error('The title stands in no panel.');
   expect(within(panel).getByText(/That is why the run waits/)).toBeTruthy();
+  expect(await within(panel).findByText(/^test success 94\.7\s%$/)).toBeTruthy();
   expect(screen.getByText(/reached 80.0% test success, below the gate of 95.0%/)).toBeTruthy();
   await user.click(within(panel).getByRole('button', { name: 'Release anyway' }));
   await waitFor(() => expect(sent()).toEqual([{ action: 'release', run_ids: ['run-1'] }]));

@@ -162,6 +162,41 @@ test('a group shows its spread, opens to its runs, and stays open in the address
   expect(router.state.location.search).toMatchObject({ open: 'FetchPush|her-sldr' });
 });
 
+test('the arrow keys go past the link to the rest of a group', async () => {
+  const groups = ['her', 'ddpg'].map((method) => ({ ...GROUP, keys: { method } }));
+  const runs = [0, 1].map((seed) => ({ ...RUN, id: `run-${seed}`, seed }));
+  server
+    .on('GET /api/run-groups', () => ({ body: { groups, total: 63 } }))
+    .on('GET /api/runs', () => ({ body: { runs, values: [[], []], next_cursor: null, total: 60 } }));
+  const { user } = openPage('/?group=method&open=her');
+  (await screen.findByRole('checkbox', { name: /seed 1$/ })).focus();
+  await user.keyboard('{ArrowDown}');
+  const link = screen.getByRole('link', { name: 'Show all, 58 runs more' });
+  expect(document.activeElement).toBe(link);
+  expect(link.tabIndex).toBe(0);
+  await user.keyboard('{ArrowDown}');
+  expect(document.activeElement?.getAttribute('aria-label')).toMatch(/ddpg/);
+});
+
+test('a line that comes late takes no focus that has gone elsewhere', async () => {
+  let answer: () => void = () => {};
+  const later = new Promise<void>((resolve) => {
+    answer = resolve;
+  });
+  server.on('GET /api/runs', async ({ url }) => {
+    if (url.searchParams.get('offset') !== '0') await later;
+    return { body: page(url, MANY) };
+  });
+  const { user } = openPage('/');
+  (await screen.findByRole('checkbox', { name: /seed 0$/ })).focus();
+  await user.keyboard('{End}');
+  const field = screen.getByRole('searchbox', { name: 'Search runs' });
+  await user.click(field);
+  answer();
+  await screen.findByRole('checkbox', { name: /seed 999$/ });
+  expect(document.activeElement).toBe(field);
+});
+
 test('selecting a closed group asks how its runs stand now', async () => {
   const { user } = openPage('/?group=task,method');
   const head = await screen.findByRole('button', { name: 'FetchPush · her-sldr' });

@@ -125,7 +125,9 @@ test('notifications are shown once it is wanted, each once, and lead to the run'
   }
   vi.stubGlobal('Notification', Fake);
   vi.spyOn(window, 'focus').mockReturnValue();
-  server.on('GET /api/notices', () => ({ body: { notices: [NOTICE], now: new Date().toISOString() } }));
+  const before = { ...NOTICE, occasion: '0', at: '2025-12-31T23:00:00Z', message: 'Before the page was opened.' };
+  // The browser's clock is fast: by the server's it has just happened.
+  server.on('GET /api/notices', () => ({ body: { notices: [before, NOTICE], now: NOTICE.at } }));
   const { user, router } = openPage('/settings');
   expect(shown).toEqual([]);
   await user.click(await screen.findByRole('switch', { name: /Show a notification/ }));

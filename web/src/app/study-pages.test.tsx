@@ -43,6 +43,17 @@ test('several sample studies are opened with one click too, and stand in the lis
   await waitFor(() => expect(router.state.location.pathname).toBe('/studies'));
 });
 
+test('beside studies of one’s own the samples can be opened too, and if they are there already, that is told', async () => {
+  const there = { ...imported('study-2'), already_there: true };
+  server.on('GET /api/study-files/sample', () => ({ body: { files: 1, size: 9_000_000 } }));
+  server.on('POST /api/study-files/sample', () => ({ body: { studies: [there] } }));
+  const { user, router } = openPage('/studies');
+  await screen.findByRole('link', { name: 'Push' });
+  await user.click(await screen.findByRole('button', { name: 'Open the sample study' }));
+  expect(await screen.findByText('The sample study was here already.')).toBeTruthy();
+  expect(router.state.location.pathname).toBe('/studies/study-2');
+});
+
 test('without runs, the runs page offers the same', async () => {
   server.on('POST /api/studies', () => problem(409, null, 'There is a study called so already.'));
   const { user } = openPage('/');
@@ -99,6 +110,24 @@ test('a deleted study can be had back at once', async () => {
   await waitFor(() => expect(server.bodiesOf('POST', `${PATH}/restore`)).toHaveLength(1));
 });
 
+test('a study that cannot be restored from the list says why', async () => {
+  const gone = { ...STUDY, deleted_at: STUDY.created_at };
+  server
+    .on('GET /api/studies', () => ({ body: { studies: [gone] } }))
+    .on(`POST ${PATH}/restore`, () => problem(409, null, 'There is a study called so already.'));
+  const { user } = openPage('/studies?deleted=yes');
+  await user.click(await screen.findByRole('button', { name: 'Restore' }));
+  expect(await screen.findByText('There is a study called so already.')).toBeTruthy();
+});
+
+test('a study without any success cannot be exported yet, and says so', async () => {
+  server.on(`GET ${PATH}`, () => ({ body: { ...STUDY, states: { running: 3 } } }));
+  openPage('/studies/study-1');
+  const button = await screen.findByRole<HTMLButtonElement>('button', { name: 'Export' });
+  expect(button.disabled).toBe(true);
+  expect(button.title).toBe('It can be exported once a run has succeeded');
+});
+
 test('a study gets another name', async () => {
   server.on(`PATCH ${PATH}`, () => DONE);
   const { user } = openPage('/studies/study-1');
@@ -108,6 +137,18 @@ test('a study gets another name', async () => {
   await user.type(name, 'Better');
   await user.click(screen.getByRole('button', { name: 'Save' }));
   await waitFor(() => expect(server.bodiesOf('PATCH', PATH)).toEqual([{ name: 'Better', note: 'What it is for.' }]));
+});
+
+test('what was typed about a study stays when it is refused, and the reason is told beside it', async () => {
+  server.on(`PATCH ${PATH}`, () => problem(409, 'name', 'There is a study called so already.'));
+  const { user } = openPage('/studies/study-1');
+  await user.click(await screen.findByRole('button', { name: 'Edit' }));
+  const note = await screen.findByRole<HTMLTextAreaElement>('textbox', { name: 'Note' });
+  await user.type(note, ' Long thoughts.');
+  await user.click(screen.getByRole('button', { name: 'Save' }));
+  const dialog = within(screen.getByRole('dialog', { name: 'Edit the study' }));
+  expect(await dialog.findByText('There is a study called so already.')).toBeTruthy();
+  expect(note.value).toBe('What it is for. Long thoughts.');
 });
 
 test('a study that does not exist gets one clear sentence', async () => {
@@ -120,6 +161,34 @@ function imported(study_id: string) {
   return { study_id, runs: 40, already_there: false };
 }
 
+/** The button that adds, once it may be pressed. */
+async function addButton(dialog: HTMLElement): Promise<HTMLElement> {
+  const button = within(dialog).getByRole<HTMLButtonElement>('button', { name: 'Add and queue' });
+  await waitFor(() => expect(button.disabled).toBe(false));
+  return button;
+}
+
+test('nothing is added before it was said what that would queue', async () => {
+  server.on('POST /api/studies/preview', () => new Promise(() => {}));
+  const { user } = openPage('/studies/study-1');
+  await user.click(await screen.findByRole('button', { name: 'Add seeds …' }));
+  const button = await screen.findByRole<HTMLButtonElement>('button', { name: 'Add and queue' });
+  expect(button.disabled).toBe(true);
+});
+
+test('what was to be added stays when it is refused', async () => {
+  server
+    .on('POST /api/studies/preview', () => ({ body: PREVIEW }))
+    .on(`POST ${PATH}/extend`, () => problem(409, null, 'The study was deleted.'));
+  const { user } = openPage('/studies/study-1');
+  await user.click(await screen.findByRole('button', { name: 'Add seeds …' }));
+  const dialog = await screen.findByRole('dialog', { name: 'Add to the study' });
+  await user.type(within(dialog).getByRole('textbox', { name: 'Seeds' }), ', 7');
+  await user.click(await addButton(dialog));
+  expect(await within(dialog).findByText('The study was deleted.')).toBeTruthy();
+  expect(within(dialog).getByRole<HTMLInputElement>('textbox', { name: 'Seeds' }).value).toBe('2, 7');
+});
+
 test('seeds are added, and what that would queue is said before', async () => {
   server
     .on('POST /api/studies/preview', () => ({ body: PREVIEW }))
@@ -129,7 +198,7 @@ test('seeds are added, and what that would queue is said before', async () => {
   const dialog = await screen.findByRole('dialog', { name: 'Add to the study' });
   expect(await within(dialog).findByText(/will be queued/)).toBeTruthy();
   expect(within(dialog).queryByText('Variants')).toBeNull();
-  await user.click(within(dialog).getByRole('button', { name: 'Add and queue' }));
+  await user.click(await addButton(dialog));
   await waitFor(() => expect(server.bodiesOf('POST', `${PATH}/extend`)).toHaveLength(1));
   const [addition] = server.bodiesOf('POST', `${PATH}/extend`);
   expect(addition).toEqual({ seeds: [2], tasks: [], methods: [], variants: [] });
@@ -151,7 +220,7 @@ test('a study that varies a setting gets another value of it', async () => {
   await waitFor(() =>
     expect(server.bodiesOf('POST', '/api/studies/preview').at(-1)).toEqual({ spec, study_id: 'study-1' }),
   );
-  await user.click(within(dialog).getByRole('button', { name: 'Add and queue' }));
+  await user.click(await addButton(dialog));
   await waitFor(() =>
     expect(server.bodiesOf('POST', `${PATH}/extend`)).toEqual([
       { seeds: [], tasks: [], methods: [], variants: [added] },

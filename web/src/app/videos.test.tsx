@@ -1,4 +1,4 @@
-import { screen, waitFor } from '@testing-library/react';
+import { cleanup, screen, waitFor } from '@testing-library/react';
 import { beforeEach, expect, test } from 'vitest';
 import type { Video } from '@/client/schema.gen';
 import { NO_METRICS } from '@/lib/metrics';
@@ -57,6 +57,20 @@ test('a video that is done is played, one that failed says why and is tried agai
   expect(screen.getByText('MuJoCo cannot draw off screen here.')).toBeTruthy();
   await user.click(screen.getByRole('button', { name: 'Try again' }));
   await waitFor(() => expect(server.bodiesOf('POST', '/api/runs/run-1/videos')).toHaveLength(1));
+});
+
+test('whoever may not film is not offered to try again, and a refusal is told', async () => {
+  videos = [{ ...VIDEO, state: 'failed', reason: 'MuJoCo cannot draw off screen here.' }];
+  server.on('POST /api/runs/run-1/videos', () => problem(409, null, 'Its policy is gone.'));
+  const { user } = openPage('/runs/run-1?tab=videos');
+  await user.click(await screen.findByRole('button', { name: 'Try again' }));
+  expect(await screen.findByText('Its policy is gone.')).toBeTruthy();
+  cleanup();
+  const caller = { name: 'ada', role: 'viewer', has_account: true };
+  server.on('GET /api/auth/me', () => ({ body: { mode: 'accounts', caller, message: null } }));
+  openPage('/runs/run-1?tab=videos');
+  await screen.findByText('MuJoCo cannot draw off screen here.');
+  await waitFor(() => expect(screen.queryByRole('button', { name: 'Try again' })).toBeNull());
 });
 
 test('what the server refuses is told', async () => {

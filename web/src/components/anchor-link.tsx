@@ -4,9 +4,9 @@ import { createLink, type LinkComponent } from '@tanstack/react-router';
 import { forwardRef, type ReactNode } from 'react';
 
 const RoutedAnchor = createLink(
-  forwardRef<HTMLAnchorElement, AnchorProps & { children?: ReactNode }>((props, ref) => (
-    <Anchor ref={ref} {...props} />
-  )),
+  forwardRef<HTMLAnchorElement, AnchorProps & { children?: ReactNode; tabIndex?: number; onFocus?: () => void }>(
+    (props, ref) => <Anchor ref={ref} {...props} />,
+  ),
 );
 
 const RoutedButton = createLink(

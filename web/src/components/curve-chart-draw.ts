@@ -9,8 +9,9 @@ const SEED = 0.38;
 const RAW = 0.32;
 /** Half the height of the mark where seeds have ended [px]. */
 const LOSS = 4;
-/** Points this few are drawn as dots, as a line of them may have no length. */
-const FEW_POINTS = 2;
+
+/** A place on the canvas: left, top [px]. */
+type Spot = [number, number];
 
 interface Pen {
   readonly plot: uPlot;
@@ -48,8 +49,8 @@ function drawBand(pen: Pen, { key, style, x, low, high }: Curve, emphasis: Empha
   ctx.fillStyle = style.color;
   for (const [start, end] of stretches(low, high)) {
     ctx.beginPath();
-    for (let row = start; row < end; row += 1) ctx.lineTo(...spot(pen, x[row], high[row]));
-    for (let row = end - 1; row >= start; row -= 1) ctx.lineTo(...spot(pen, x[row], low[row]));
+    for (let row = start; row < end; row += 1) ctx.lineTo(...spot(pen, x[row], lifted(pen, high[row])));
+    for (let row = end - 1; row >= start; row -= 1) ctx.lineTo(...spot(pen, x[row], lifted(pen, low[row])));
     ctx.fill();
   }
 }
@@ -84,30 +85,25 @@ function drawLine(pen: Pen, x: readonly number[], y: Values, style: LineStyle, w
   ctx.fillStyle = style.color;
   ctx.lineWidth = width * pen.ratio;
   ctx.setLineDash(style.dash.map((length) => length * pen.ratio));
+  const pieces = piecesOf(pen, x, y);
   ctx.beginPath();
-  let drawn = 0;
-  for (let row = 0; row < x.length; row += 1) {
-    const [left, top] = spot(pen, x[row], y[row]);
-    if (Number.isNaN(top) || Number.isNaN(left)) continue;
-    ctx.lineTo(left, top);
-    drawn += 1;
+  for (const [first, ...rest] of pieces) {
+    ctx.moveTo(...first);
+    for (const next of rest) ctx.lineTo(...next);
   }
   ctx.stroke();
-  if (drawn < FEW_POINTS) drawDots(pen, x, y, width);
+  // A line of one point has no length.
+  for (const [first, ...rest] of pieces) if (rest.length === 0) drawDot(pen, first, width);
 }
 
-function drawDots(pen: Pen, x: readonly number[], y: Values, width: number): void {
-  const { ctx } = pen.plot;
-  x.forEach((place, row) => {
-    const [left, top] = spot(pen, place, y[row]);
-    ctx.beginPath();
-    ctx.arc(left, top, (width + 1) * pen.ratio, 0, 2 * Math.PI);
-    ctx.fill();
-  });
+function drawDot({ plot: { ctx }, ratio }: Pen, [left, top]: Spot, width: number): void {
+  ctx.beginPath();
+  ctx.arc(left, top, (width + 1) * ratio, 0, 2 * Math.PI);
+  ctx.fill();
 }
 
 /** A cross on the curve: from here on it is made of fewer seeds. */
-function drawLoss({ plot, ratio }: Pen, [left, top]: [number, number], color: string, strength: number): void {
+function drawLoss({ plot, ratio }: Pen, [left, top]: Spot, color: string, strength: number): void {
   const { ctx } = plot;
   const half = LOSS * ratio;
   ctx.globalAlpha = strength;
@@ -123,10 +119,31 @@ function drawLoss({ plot, ratio }: Pen, [left, top]: [number, number], color: st
 }
 
 /** Where a point lies on the canvas; not a number where it has no place there. */
-function spot({ plot, isLog }: Pen, x: number | undefined, y: number | null | undefined): [number, number] {
+function spot({ plot, isLog }: Pen, x: number | undefined, y: number | null | undefined): Spot {
   if (x === undefined || y === null || y === undefined || (isLog && y <= 0)) return [Number.NaN, Number.NaN];
   const left = plot.scales.x?.distr === 3 && x <= 0 ? Number.NaN : plot.valToPos(x, 'x', true);
   return [left, plot.valToPos(y, 'y', true)];
+}
+
+/** A value as far up as a logarithmic axis begins. */
+function lifted({ plot, isLog }: Pen, value: number | null | undefined): number | null | undefined {
+  return isLog && typeof value === 'number' && value <= 0 ? plot.scales.y?.min : value;
+}
+
+/** The points of a line, parted where a value has no place on the axis; what is missing parts nothing. */
+function piecesOf(pen: Pen, x: readonly number[], y: Values): [Spot, ...Spot[]][] {
+  const pieces: [Spot, ...Spot[]][] = [];
+  let isParted = true;
+  for (let row = 0; row < x.length; row += 1) {
+    const point = spot(pen, x[row], y[row]);
+    const piece = pieces.at(-1);
+    if (point.some(Number.isNaN)) isParted ||= typeof y[row] === 'number';
+    else if (isParted || piece === undefined) {
+      pieces.push([point]);
+      isParted = false;
+    } else piece.push(point);
+  }
+  return pieces;
 }
 
 /** Rows from start to end (exclusive) in which both columns have values. */

@@ -14,7 +14,8 @@ export interface CurveChartLook {
   readonly isLogY: boolean;
   /** Distances that ticks of the x axis may have; uPlot's own if left out. */
   readonly xSteps?: readonly number[];
-  readonly formatX: (value: number) => string;
+  /** With the distance of the ticks, they read differently. */
+  readonly formatX: (value: number, step?: number) => string;
   readonly formatY: (value: number) => string;
 }
 
@@ -58,7 +59,8 @@ export function curveChartOptions(now: () => CurveChartState, width: number): uP
         space: 56,
         ...(xSteps && !isLogX && { incrs: [...xSteps] }),
         ...(isLogX && logAxis('x')),
-        values: (_plot, splits) => splits.map((value) => (value === null ? '' : now().formatX(value))),
+        values: (_plot, splits, _axis, _space, step) =>
+          splits.map((value) => (value === null ? '' : now().formatX(value, isLogX ? undefined : step))),
       },
       {
         ...axis,

@@ -7,6 +7,8 @@ import { noticeKey, untold } from '@/lib/notices';
 
 /** How often it is asked what has happened [ms]. */
 const POLL_MS = 15_000;
+/** How far back the first question looks, when it is not known yet how the server's clock stands [ms]. */
+const FIRST_LOOK_MS = 86_400_000;
 /** A thing may be written down a little after it has happened, so each question looks back a little [ms]. */
 const OVERLAP_MS = 60_000;
 const WANTED_KEY = 'sldr-desktop-notices';
@@ -29,8 +31,10 @@ export function useNoticesWanted(): [boolean, (wanted: boolean) => void] {
 /** Show what happens from now on, if the person wants it; `open` leads to what it is about. */
 export function useDesktopNotices(open: (path: string) => void): void {
   const [isWanted] = useNoticesWanted();
-  const begun = useRef(new Date().toISOString());
-  const since = useRef(begun.current);
+  const opened = useRef(Date.now());
+  // By the server's clock, for this machine's may be fast or slow.
+  const begun = useRef<number | null>(null);
+  const since = useRef(new Date(opened.current - FIRST_LOOK_MS).toISOString());
   const told = useRef(new Set<string>());
   const opening = useRef(open);
   opening.current = open;
@@ -45,9 +49,12 @@ export function useDesktopNotices(open: (path: string) => void): void {
   });
   useEffect(() => {
     if (data === undefined) return;
-    const lookBack = new Date(new Date(data.now).getTime() - OVERLAP_MS).toISOString();
-    since.current = lookBack > begun.current ? lookBack : begun.current;
-    for (const notice of untold(data.notices, told.current)) {
+    const now = Date.parse(data.now);
+    const start = begun.current ?? now - (Date.now() - opened.current);
+    begun.current = start;
+    since.current = new Date(Math.max(start, now - OVERLAP_MS)).toISOString();
+    const notices = data.notices.filter(({ at }) => Date.parse(at) > start);
+    for (const notice of untold(notices, told.current)) {
       const shown = new Notification('SLDR', { body: notice.message, tag: noticeKey(notice) });
       shown.onclick = () => {
         window.focus();

@@ -12,7 +12,8 @@ export interface ChartLook {
   readonly isSmoothed: boolean;
   /** Distances that ticks of the x axis may have; uPlot's own if left out. */
   readonly xSteps?: readonly number[];
-  readonly formatX: (value: number) => string;
+  /** With the distance of the ticks, they read differently. */
+  readonly formatX: (value: number, step?: number) => string;
   readonly formatY: (value: number) => string;
   /** Places on the x axis where a later attempt began. */
   readonly marks: readonly Mark[];
@@ -57,7 +58,7 @@ export function chartOptions(now: () => Current, width: number): uPlot.Options {
         gap: 4,
         space: 64,
         ...(xSteps && { incrs: [...xSteps] }),
-        values: (_plot, splits) => splits.map((value) => now().formatX(value)),
+        values: (_plot, splits, _axis, _space, step) => splits.map((value) => now().formatX(value, step)),
       },
       { ...axis, size: 52, gap: 5, space: 28, values: (_plot, splits) => splits.map((value) => now().formatY(value)) },
     ],

@@ -11,13 +11,15 @@ interface Props {
   height?: number;
   /** How many of the columns, from the left, hold words. */
   wordColumns?: number;
+  /** How many rows are drawn at most, where a CSV has them all. */
+  mostRows?: number;
 }
 
 /** As many rows as a page takes easily. */
 const MOST_ROWS = 500;
 
-export function NumberTable({ name, columns, rows, height, wordColumns = 1 }: Props) {
-  const shown = rows.slice(0, MOST_ROWS);
+export function NumberTable({ name, columns, rows, height, wordColumns = 1, mostRows = MOST_ROWS }: Props) {
+  const shown = rows.slice(0, mostRows);
   return (
     // biome-ignore lint/a11y/noNoninteractiveTabindex: a scrolling region must be reachable by keyboard
     <section className={classes.frame} style={{ maxHeight: height }} tabIndex={0} aria-label={`${name}, numbers`}>
@@ -44,9 +46,9 @@ export function NumberTable({ name, columns, rows, height, wordColumns = 1 }: Pr
           ))}
         </tbody>
       </table>
-      {rows.length > MOST_ROWS && (
+      {rows.length > mostRows && (
         <p className="faint">
-          The first {MOST_ROWS} of {rows.length} rows; the CSV has them all.
+          The first {mostRows} of {rows.length} rows; the CSV has them all.
         </p>
       )}
     </section>

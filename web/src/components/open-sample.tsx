@@ -2,6 +2,7 @@
 import { Button } from '@mantine/core';
 import { queryOptions, useMutation, useQuery, useQueryClient } from '@tanstack/react-query';
 import { useNavigate } from '@tanstack/react-router';
+import { useToast } from '@/components/toasts';
 import { useMay } from '@/lib/access';
 import { client, sentence, unwrap } from '@/lib/api';
 
@@ -12,8 +13,10 @@ const sampleQuery = queryOptions({
   staleTime: Number.POSITIVE_INFINITY,
 });
 
-export function OpenSample() {
+/** @param isQuiet whether it stands among other ways, and not in place of what is missing */
+export function OpenSample({ isQuiet = false }: { isQuiet?: boolean }) {
   const { data } = useQuery(sampleQuery);
+  const toast = useToast();
   const queries = useQueryClient();
   const navigate = useNavigate();
   const isMine = useMay('operator');
@@ -22,6 +25,9 @@ export function OpenSample() {
     onSuccess: async ({ studies }) => {
       await Promise.all([['studies'], ['runs']].map((queryKey) => queries.invalidateQueries({ queryKey })));
       const [first, ...others] = studies;
+      if (studies.every((study) => study.already_there)) {
+        toast({ text: `The sample ${others.length === 0 ? 'study was' : 'studies were'} here already.` });
+      }
       if (first === undefined || others.length > 0) await navigate({ to: '/studies' });
       else await navigate({ to: '/studies/$studyId', params: { studyId: first.study_id } });
     },
@@ -30,8 +36,8 @@ export function OpenSample() {
   return (
     <>
       <Button
-        size="lg"
-        variant="default"
+        size={isQuiet ? undefined : 'lg'}
+        variant={isQuiet ? 'subtle' : 'default'}
         loading={opening.isPending}
         title="Real results, made with this product: look at curves, statistics and 3D before you train anything."
         onClick={() => opening.mutate()}

@@ -8,22 +8,23 @@ const HIGHEST = 100;
 interface Props {
   value: number;
   label: string;
-  onSet: (priority: number) => void;
+  /** Give it; a promise that is broken if it is refused. */
+  onSet: (priority: number) => Promise<unknown>;
   /** Whether to take the focus as soon as it is there. */
   isEager?: boolean;
 }
 
 export function PriorityField({ value, label, onSet, isEager = false }: Props) {
   const field = useRef<HTMLInputElement>(null);
-  const [typed, setTyped] = useState<number | string>(value);
-  useEffect(() => setTyped(value), [value]);
+  const [typed, setTyped] = useState<number | string | null>(null);
+  // biome-ignore lint/correctness/useExhaustiveDependencies: what was typed gives way to what is known now
+  useEffect(() => setTyped(null), [value]);
   useEffect(() => {
     if (isEager) field.current?.select();
   }, [isEager]);
   const take = (): void => {
-    const priority = typeof typed === 'number' ? typed : value;
-    setTyped(priority);
-    if (priority !== value) onSet(priority);
+    if (typeof typed === 'number' && typed !== value) onSet(typed).catch(() => setTyped(null));
+    else setTyped(null);
   };
   return (
     <NumberInput
@@ -35,12 +36,12 @@ export function PriorityField({ value, label, onSet, isEager = false }: Props) {
       clampBehavior="strict"
       allowDecimal={false}
       aria-label={label}
-      value={typed}
+      value={typed ?? value}
       onChange={setTyped}
       onBlur={take}
       onKeyDown={(event) => {
         if (event.key === 'Enter') take();
-        if (event.key === 'Escape') setTyped(value);
+        if (event.key === 'Escape') setTyped(null);
       }}
     />
   );

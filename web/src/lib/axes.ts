@@ -1,5 +1,5 @@
 /** What curves are drawn over, and how places on it are written. */
-import { formatDuration, formatShort } from '@/lib/format';
+import { formatCount, formatDuration, formatShort } from '@/lib/format';
 
 export type Axis = 'epoch' | 'env_steps' | 'episodes' | 'updates' | 'wall_seconds';
 
@@ -11,18 +11,28 @@ export const AXIS_NAMES: Readonly<Record<Axis, string>> = {
   wall_seconds: 'Wall time',
 };
 
-/** Ticks of the wall time lie on round numbers of seconds, minutes or hours [s]. */
-const TIME_STEPS = [1, 5, 10, 30, 60, 120, 300, 600, 1800, 3600, 7200, 18_000, 36_000, 86_400];
+/** Ticks of the wall time lie on round numbers of seconds, minutes, hours or days [s]. */
+const TIME_STEPS = [
+  1, 5, 10, 30, 60, 120, 300, 600, 1800, 3600, 7200, 18_000, 36_000, 86_400, 172_800, 432_000, 864_000, 1_728_000,
+];
 
 /** Distances that ticks of an axis may have, where plain round numbers read badly. */
 export function xSteps(axis: Axis): readonly number[] | undefined {
   return axis === 'wall_seconds' ? TIME_STEPS : undefined;
 }
 
-/** A place on the x axis as text. */
-export function formatX(axis: Axis, value: number): string {
-  if (axis === 'wall_seconds') return formatDuration(value);
-  return axis === 'epoch' ? String(Number(value.toFixed(2))) : formatShort(value);
+/**
+ * A place on the x axis as text.
+ * @param step the distance of the ticks, which then read differently
+ */
+export function formatX(axis: Axis, value: number, step?: number): string {
+  if (axis === 'wall_seconds') return formatDuration(value, step);
+  return axis === 'epoch' ? String(Number(value.toFixed(2))) : formatShort(value, step);
+}
+
+/** A place on the x axis to its last digit. */
+export function formatPlace(axis: Axis, value: number): string {
+  return axis === 'wall_seconds' || axis === 'epoch' ? formatX(axis, value) : formatCount(value);
 }
 
 /** Whether the values of a metric are shares from 0 to 1. */

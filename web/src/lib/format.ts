@@ -7,6 +7,17 @@ const MINUTE = 60; // [s]
 const HOUR = 60 * MINUTE; // [s]
 const DAY = 24 * HOUR; // [s]
 
+/** Units of a span of time, the largest first. */
+const UNITS = [
+  { name: 'd', size: DAY },
+  { name: 'h', size: HOUR },
+  { name: 'm', size: MINUTE },
+  { name: 's', size: 1 },
+] as const;
+
+/** Figures of a number that is written short. */
+const FIGURES = 3;
+
 type Maybe = number | null | undefined;
 
 function isNumber(value: Maybe): value is number {
@@ -21,14 +32,18 @@ export function formatCount(value: Maybe): string {
     .replace(/\B(?=(\d{3})+(?!\d))/g, '\u202f');
 }
 
-/** A number in three figures with a suffix: `1.23M`, `57k`, `840`. */
-export function formatShort(value: Maybe): string {
+/**
+ * A number in three figures with a suffix: `1.23M`, `57k`, `840`.
+ * @param step numbers so far apart read differently: they have more figures where that takes more
+ */
+export function formatShort(value: Maybe, step?: number): string {
   if (!isNumber(value)) return NOTHING;
   const size = Math.abs(value);
-  if (size >= 999_500_000) return `${figures(value / 1e9)}G`;
-  if (size >= 999_500) return `${figures(value / 1e6)}M`;
-  if (size >= 999.5) return `${figures(value / 1e3)}k`;
-  return figures(value);
+  const count = step ? Math.max(FIGURES, powerOf(size) - powerOf(step) + 1) : FIGURES;
+  if (size >= 999_500_000) return `${figures(value / 1e9, count)}G`;
+  if (size >= 999_500) return `${figures(value / 1e6, count)}M`;
+  if (size >= 999.5) return `${figures(value / 1e3, count)}k`;
+  return figures(value, count);
 }
 
 /** A measured value in four figures, in powers of ten when very small or large. */
@@ -50,14 +65,25 @@ export function formatRate(value: Maybe): string {
   return isNumber(value) ? `${formatShort(value)}/s` : NOTHING;
 }
 
-/** A span of time in its two largest units: `7s`, `3m 20s`, `2h 5m`, `3d 4h`. */
-export function formatDuration(seconds: Maybe): string {
+/**
+ * A span of time in its two largest units: `7s`, `3m 20s`, `2h 5m`, `3d 4h`.
+ * @param step spans so far apart read differently: they have more units where that takes more
+ */
+export function formatDuration(seconds: Maybe, step = DAY): string {
   if (!isNumber(seconds)) return NOTHING;
-  const whole = Math.max(0, Math.round(seconds));
-  if (whole < MINUTE) return `${whole}s`;
-  if (whole < HOUR) return join(Math.floor(whole / MINUTE), 'm', whole % MINUTE, 's');
-  if (whole < DAY) return join(Math.floor(whole / HOUR), 'h', Math.floor((whole % HOUR) / MINUTE), 'm');
-  return join(Math.floor(whole / DAY), 'd', Math.floor((whole % DAY) / HOUR), 'h');
+  let rest = Math.max(0, Math.round(seconds));
+  const largest = UNITS.findIndex(({ size }) => rest >= size);
+  if (largest === -1) return '0s';
+  const smallest = Math.max(
+    largest + 1,
+    UNITS.findIndex(({ size }) => size <= step),
+  );
+  const parts = UNITS.slice(largest, smallest + 1).map(({ name, size }) => {
+    const count = Math.floor(rest / size);
+    rest %= size;
+    return count === 0 ? '' : `${count}${name}`;
+  });
+  return parts.filter(Boolean).join(' ');
 }
 
 /** How long ago a moment was: `just now`, `12 s ago`, `3 h ago`. */
@@ -116,10 +142,11 @@ export function secondsBetween(
   return (until - Date.parse(start)) / 1000;
 }
 
-function figures(value: number): string {
-  return String(Number(value.toPrecision(3)));
+function figures(value: number, count = FIGURES): string {
+  return String(Number(value.toPrecision(count)));
 }
 
-function join(large: number, largeUnit: string, small: number, smallUnit: string): string {
-  return small === 0 ? `${large}${largeUnit}` : `${large}${largeUnit} ${small}${smallUnit}`;
+/** Of the first digit of a number, as a power of ten. */
+function powerOf(size: number): number {
+  return size === 0 ? 0 : Math.floor(Math.log10(size));
 }

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { parseSeeds } from './seeds';
+import { MOST_STUDY_SEEDS, parseSeeds } from './seeds';
 
 test.each([
   ['0', [0]],
@@ -7,6 +7,10 @@ test.each([
   ['7, 1 , 3-4,1', [1, 3, 4, 7]],
 ])('%s names the seeds %j', (text, seeds) => {
   expect(parseSeeds(text)).toEqual(seeds);
+});
+
+test('a study may have more seeds than a launch', () => {
+  expect(parseSeeds('0-119', MOST_STUDY_SEEDS)).toHaveLength(120);
 });
 
 test.each([

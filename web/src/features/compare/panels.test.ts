@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import { COMPARISON } from '@/testing/comparison';
 import { byFamily } from './families';
-import { panelCurves, panelLegend, wholeOf, yExtent } from './panels';
+import { panelCurves, panelLegend, sourcesOf, wholeOf, yExtent } from './panels';
 
 const [PANEL] = COMPARISON.panels;
 if (PANEL === undefined) throw new Error('The sample has no panel.');
@@ -55,4 +55,22 @@ test('tasks stand as in the paper, unknown ones at the end', () => {
     ['HandPenFull'],
     ['Mine'],
   ]);
+});
+
+test('a panel is made of other runs when some are filtered away, of the same when they go on', () => {
+  const [, ...rest] = PANEL.curves;
+  expect(sourcesOf({ ...PANEL, curves: rest })).not.toBe(sourcesOf(PANEL));
+  const longer = PANEL.curves.map((curve) => ({ ...curve, x: [...curve.x, 4], centre: [...curve.centre, 1] }));
+  expect(sourcesOf({ ...PANEL, curves: longer.reverse() })).toBe(sourcesOf(PANEL));
+});
+
+test('a panel with its seeds drawn, or without runs that have ended, is made of something else', () => {
+  const changed = (changes: object, memberChanges: object = {}) =>
+    PANEL.curves.map((curve) => ({
+      ...curve,
+      ...changes,
+      members: curve.members.map((member) => ({ ...member, ...memberChanges })),
+    }));
+  expect(sourcesOf({ ...PANEL, curves: changed({}, { x: [1], y: [1] }) })).not.toBe(sourcesOf(PANEL));
+  expect(sourcesOf({ ...PANEL, curves: changed({ holds: true }) })).not.toBe(sourcesOf(PANEL));
 });

@@ -56,6 +56,14 @@ function spacingOf({ x, members }: GroupCurve): number {
   return width > 0 ? width / (most - 1) : 1;
 }
 
+/** What the curves of a panel are made of: with other runs, or others of them drawn, its y axis starts afresh. */
+export function sourcesOf(panel: Panel): string {
+  const sources = panel.curves.map(({ group, holds, members }) =>
+    [group, holds, ...members.map(({ run_id, x }) => `${run_id} ${x !== null}`)].join(),
+  );
+  return sources.sort().join('\n');
+}
+
 /** All that there is of the x axis, in all panels. */
 export function wholeOf(panels: readonly Panel[], isLog: boolean): Range {
   let first = Number.POSITIVE_INFINITY;

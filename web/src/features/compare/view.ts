@@ -1,5 +1,5 @@
 /** What all panels of the page share: how their curves are looked at, and what the mouse does to all of them. */
-import type { CurveComparison, Panel } from '@/client/schema.gen';
+import type { CurveComparison, Group, Panel } from '@/client/schema.gen';
 import type { Axis } from '@/lib/axes';
 import type { Emphasis } from '@/lib/curves';
 import { formatShare, formatValue } from '@/lib/format';
@@ -13,6 +13,8 @@ export interface PanelView {
   readonly metric: string;
   /** The metric in words. */
   readonly metricName: string;
+  /** What is made of the seeds, in words. */
+  readonly statistic: string;
   readonly axis: Axis;
   readonly scheme: Scheme;
   readonly weight: number;
@@ -34,6 +36,13 @@ export function windowOf({ from, to, logx }: CompareSearch, panels: readonly Pan
   if (from === undefined || to === undefined) return { range: whole, whole };
   const start = logx === 'yes' && from <= 0 ? whole[0] : from;
   return { range: start < to ? [start, to] : whole, whole };
+}
+
+/** What stands out: what the mouse is near, else the pinned group; a group that is not there fades no other. */
+export function standingOut(groups: readonly Group[], near: Emphasis | null, pin: string | undefined): Emphasis | null {
+  const isThere = (key: string | undefined): boolean => groups.some((group) => group.key === key);
+  if (near !== null && isThere(near.key)) return near;
+  return pin !== undefined && isThere(pin) ? { key: pin } : null;
 }
 
 /** A value of the metric as text. */

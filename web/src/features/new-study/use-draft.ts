@@ -3,7 +3,7 @@ import { useDebouncedValue } from '@mantine/hooks';
 import { useQuery } from '@tanstack/react-query';
 import { useMemo, useState } from 'react';
 import type { Choices, StudySpec } from '@/client/schema.gen';
-import { parseSeeds } from '@/lib/seeds';
+import { MOST_STUDY_SEEDS, parseSeeds } from '@/lib/seeds';
 import { readRows, rowsOf, type SettingRow } from '@/lib/setting-rows';
 import { readSettingGroups } from '@/lib/settings';
 import { describeAxes } from '@/lib/studies';
@@ -72,6 +72,8 @@ export function useDraft(begin: Draft, choices: Choices) {
     choose: (changes: Partial<Draft>) => setDraft((old) => ({ ...old, ...changes })),
     groups,
     problems,
+    /** Whether the rows name variants, in whose favour those that came with the draft are left out. */
+    isVaried: settings.variants.length > 0,
     spec,
     name: draft.name.trim() || (spec ? nameOf(spec) : ''),
     preview: spec !== null && !preview.isError ? preview.data : undefined,
@@ -95,7 +97,7 @@ function inOrder(names: readonly string[], known: readonly { name: string }[]): 
 
 function readSeeds(text: string): { seeds: number[]; problem?: string } {
   try {
-    return { seeds: parseSeeds(text) };
+    return { seeds: parseSeeds(text, MOST_STUDY_SEEDS) };
   } catch (error) {
     return { seeds: [], problem: (error as Error).message };
   }

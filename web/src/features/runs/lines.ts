@@ -28,6 +28,8 @@ export interface Lines {
   readonly updatedAt: number;
   readonly error: Error | null;
   lineAt: (index: number) => Line;
+  /** The line of a run that is at hand, or -1. */
+  indexOf: (id: string) => number;
   /** A run that is at hand. */
   findRun: (id: string) => RunSummary | undefined;
   /** The runs between two lines, both included. */

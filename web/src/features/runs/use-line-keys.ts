@@ -32,10 +32,12 @@ export function useLineKeys({ count, scrollTo, onExtend, onEnter, onClear }: Doi
   const wanted = useRef<{ place: HTMLElement; index: number } | null>(null);
   // After each render: the line to go to may have to be scrolled to first.
   useLayoutEffect(() => {
-    const box = wanted.current && boxOf(wanted.current.place, wanted.current.index);
-    if (!box) return;
-    wanted.current = null;
-    box.focus({ preventScroll: true });
+    if (wanted.current === null) return;
+    const { place, index } = wanted.current;
+    const box = boxOf(place, index);
+    const isGone = isElsewhere(place);
+    if (box !== null || isGone) wanted.current = null;
+    if (!isGone) box?.focus({ preventScroll: true });
   });
   const onKeyDown = (event: KeyboardEvent<HTMLElement>): void => {
     const index = lineOf(event.target as HTMLElement);
@@ -54,7 +56,11 @@ export function useLineKeys({ count, scrollTo, onExtend, onEnter, onClear }: Doi
     else if (event.key === 'ArrowLeft') onEnter(index, false);
     else if (event.key === 'Escape') onClear();
   };
-  return { active: Math.min(active, Math.max(0, count - 1)), setActive, onKeyDown };
+  const take = (index: number): void => {
+    if (index !== wanted.current?.index) wanted.current = null;
+    setActive(index);
+  };
+  return { active: Math.min(active, Math.max(0, count - 1)), setActive: take, onKeyDown };
 }
 
 /** The line whose box has the focus; keys in links and fields are not ours. */
@@ -62,6 +68,12 @@ function lineOf(target: HTMLElement): number | null {
   if (target.dataset.lineBox === undefined) return null;
   const index = Number(target.closest<HTMLElement>('[data-line]')?.dataset.line);
   return Number.isInteger(index) ? index : null;
+}
+
+/** Whether the focus was taken out of the table; with a line that is drawn no more it is merely lost. */
+function isElsewhere(place: HTMLElement): boolean {
+  const { activeElement } = document;
+  return activeElement !== document.body && !place.contains(activeElement);
 }
 
 function boxOf(place: HTMLElement, index: number): HTMLElement | null {

@@ -32,6 +32,13 @@ function useRunLines(search: RunsSearch, shown: Range, isWanted: boolean): Lines
     updatedAt: first.dataUpdatedAt,
     error: first.data === undefined ? first.error : null,
     lineAt,
+    indexOf: (id) => {
+      for (const [number, page] of pages) {
+        const row = page?.runs.findIndex((run) => run.id === id) ?? -1;
+        if (row !== -1) return number * PAGE_SIZE + row;
+      }
+      return -1;
+    },
     findRun: (id) => found(pages.values(), id),
     runsBetween: (range) => {
       const lines = Array.from({ length: range.last - range.first + 1 }, (_, i) => lineAt(range.first + i));
@@ -65,6 +72,7 @@ function useGroupLines(search: RunsSearch, isWanted: boolean): Lines {
     updatedAt: dataUpdatedAt,
     error: data === undefined ? error : null,
     lineAt: (index) => lines[index] ?? LOADING,
+    indexOf: (id) => lines.findIndex((line) => line.kind === 'run' && line.run.id === id),
     findRun: (id) => found(open.map(pageOf), id),
     runsBetween: ({ first, last }) => runsAmong(lines.slice(first, last + 1)),
     runsOfGroup: (group) => {

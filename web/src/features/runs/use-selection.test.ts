@@ -1,17 +1,31 @@
 import { act, renderHook, waitFor } from '@testing-library/react';
 import { expect, test } from 'vitest';
 import { RUN } from '@/testing/samples';
-import type { Range, SomeRuns } from './lines';
+import { LOADING, type Range, type SomeRuns } from './lines';
 import { useSelection } from './use-selection';
 
 const ROWS = ['a', 'b', 'c', 'd'].map((id) => ({ ...RUN, id }));
-const between = ({ first, last }: Range): SomeRuns => ROWS.slice(first, last + 1);
 
-function selection(runsBetween: typeof between = between, onProblem: (error: unknown) => void = () => {}) {
-  const { result } = renderHook(() => useSelection(runsBetween, onProblem));
+/** Lines of runs, all at hand unless `runsBetween` says otherwise. */
+function linesOf(rows: typeof ROWS, runsBetween?: () => SomeRuns) {
+  const between = ({ first, last }: Range): SomeRuns => rows.slice(first, last + 1);
+  return {
+    runsBetween: runsBetween ?? between,
+    lineAt: (index: number) => {
+      const run = rows[index];
+      return run === undefined ? LOADING : ({ kind: 'run', run, values: [], isInGroup: false } as const);
+    },
+    indexOf: (id: string) => rows.findIndex((run) => run.id === id),
+  };
+}
+
+function selection(runsBetween?: () => SomeRuns, onProblem: (error: unknown) => void = () => {}) {
+  const { result, rerender } = renderHook((rows) => useSelection(linesOf(rows, runsBetween), onProblem), {
+    initialProps: ROWS,
+  });
   const set = (index: number, isSelected: boolean, isRange: boolean): Promise<void> =>
     act(async () => result.current.setLine(index, isSelected, isRange));
-  return { result, set, ids: () => result.current.runs.map((run) => run.id).sort() };
+  return { result, rerender, set, ids: () => result.current.runs.map((run) => run.id).sort() };
 }
 
 test('with Shift all rows in between are selected, upwards too', async () => {
@@ -35,6 +49,26 @@ test('after clearing, Shift begins anew', async () => {
   act(() => result.current.clear());
   await set(2, true, true);
   expect(ids()).toEqual(['c']);
+});
+
+test('with Shift the range begins at the run that was chosen, wherever it stands by now', async () => {
+  const { rerender, set, ids } = selection();
+  await set(0, true, false);
+  rerender([...ROWS.slice(1), ...ROWS.slice(0, 1)]);
+  await set(2, true, true);
+  expect(ids()).toEqual(['a', 'd']);
+});
+
+test('rows that were asked for before clearing stay unselected', async () => {
+  let answer: (rows: typeof ROWS) => void = () => {};
+  const rows = new Promise<typeof ROWS>((resolve) => {
+    answer = resolve;
+  });
+  const { result, ids } = selection();
+  act(() => result.current.set(rows, true));
+  act(() => result.current.clear());
+  await act(async () => answer(ROWS));
+  expect(ids()).toEqual([]);
 });
 
 test('rows that cannot be fetched are told of, and none is selected', async () => {

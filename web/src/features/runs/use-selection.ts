@@ -1,7 +1,7 @@
 /** Which runs are selected: one by one, from the last line to this one with Shift, or all. */
 import { useCallback, useRef, useState } from 'react';
 import type { RunSummary } from '@/client/schema.gen';
-import type { Range, SomeRuns } from './lines';
+import type { Lines, SomeRuns } from './lines';
 
 export interface Selection {
   /** The selected runs as they were when they were selected. */
@@ -14,16 +14,35 @@ export interface Selection {
   clear: () => void;
 }
 
+/** Where a range begins: a run, for lines move while they are looked at, and the line where it stood. */
+interface Anchor {
+  readonly id: string | null;
+  readonly index: number;
+}
+
 /**
- * @param runsBetween the runs between two lines, both included
+ * @param lines the lines as they stand now
  * @param onProblem called when runs cannot be fetched
  */
-export function useSelection(runsBetween: (range: Range) => SomeRuns, onProblem: (error: unknown) => void): Selection {
+export function useSelection(
+  lines: Pick<Lines, 'lineAt' | 'indexOf' | 'runsBetween'>,
+  onProblem: (error: unknown) => void,
+): Selection {
   const [chosen, setChosen] = useState<ReadonlyMap<string, RunSummary>>(new Map());
-  const anchor = useRef<number | null>(null);
+  const anchor = useRef<Anchor | null>(null);
+  const clearings = useRef(0);
   const set = (runs: SomeRuns, isSelected: boolean): void => {
-    if (runs instanceof Promise) runs.then((found) => setNow(found, isSelected)).catch(onProblem);
-    else setNow(runs, isSelected);
+    if (!(runs instanceof Promise)) {
+      setNow(runs, isSelected);
+      return;
+    }
+    const before = clearings.current;
+    // Runs that were asked for before clearing may be hidden by now.
+    const isWanted = (): boolean => clearings.current === before;
+    runs.then(
+      (found) => isWanted() && setNow(found, isSelected),
+      (error) => isWanted() && onProblem(error),
+    );
   };
   const setNow = (runs: readonly RunSummary[], isSelected: boolean): void =>
     setChosen((before) => {
@@ -37,16 +56,23 @@ export function useSelection(runsBetween: (range: Range) => SomeRuns, onProblem:
   const clear = useCallback(() => {
     setChosen((before) => (before.size === 0 ? before : new Map()));
     anchor.current = null;
+    clearings.current += 1;
   }, []);
   return {
     runs: [...chosen.values()],
     has: (id) => chosen.has(id),
     set,
     setLine: (index, isSelected, isRange) => {
-      const since = isRange && anchor.current !== null ? anchor.current : index;
-      anchor.current = index;
-      set(runsBetween({ first: Math.min(since, index), last: Math.max(since, index) }), isSelected);
+      const since = isRange && anchor.current !== null ? placeOf(anchor.current, lines) : index;
+      const line = lines.lineAt(index);
+      anchor.current = { id: line.kind === 'run' ? line.run.id : null, index };
+      set(lines.runsBetween({ first: Math.min(since, index), last: Math.max(since, index) }), isSelected);
     },
     clear,
   };
+}
+
+function placeOf(anchor: Anchor, lines: Pick<Lines, 'indexOf'>): number {
+  const index = anchor.id === null ? -1 : lines.indexOf(anchor.id);
+  return index === -1 ? anchor.index : index;
 }

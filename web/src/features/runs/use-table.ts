@@ -38,7 +38,7 @@ export interface TableProps {
 export function useTable(search: RunsSearch, lines: Lines, onChange: (changes: RunsSearch) => void): Table {
   const navigate = useNavigate();
   const toast = useToast();
-  const selection = useSelection(lines.runsBetween, (error) => toast({ text: sentence(error), isProblem: true }));
+  const selection = useSelection(lines, (error) => toast({ text: sentence(error), isProblem: true }));
   // Runs that the filters hide must not be acted on by mistake.
   const filter = JSON.stringify(filterOf(search));
   // biome-ignore lint/correctness/useExhaustiveDependencies: it is the change of the filter that clears

@@ -30,6 +30,7 @@ export function StudiesPage() {
           <AnchorLink to="/studies" search={{ deleted: isDeleted ? undefined : 'yes' }} fz="sm">
             {isDeleted ? 'All other studies' : 'Deleted studies'}
           </AnchorLink>
+          {!isDeleted && data && data.studies.length > 0 && <OpenSample isQuiet />}
           <OnlyFor least="operator">
             <UploadStudy />
             <ButtonLink to="/studies/new" leftSection={<Icon name="launch" size={14} />}>

@@ -1,7 +1,7 @@
 /** Open a one-time link: set the password of an account, and be signed in. */
 import { Button, PasswordInput } from '@mantine/core';
 import { useQuery } from '@tanstack/react-query';
-import { useNavigate } from '@tanstack/react-router';
+import { useLocation, useNavigate } from '@tanstack/react-router';
 import { useEffect, useState } from 'react';
 import { ButtonLink } from '@/components/anchor-link';
 import { EntryFrame } from '@/components/entry-frame';
@@ -12,11 +12,9 @@ import { client, sentence, unwrap } from '@/lib/api';
 const SHORTEST_PASSWORD = 12;
 
 export function WelcomePage() {
-  const [token] = useState(() => window.location.hash.slice(1));
-  // The secret leaves the address, so that it stays neither in the history nor on the screen.
-  useEffect(() => window.history.replaceState(window.history.state, '', window.location.pathname), []);
+  const token = useToken();
   const invited = useQuery({
-    queryKey: ['invitation'],
+    queryKey: ['invitation', token],
     queryFn: () => unwrap(client.POST('/api/auth/invitation', { body: { token: token || 'none' } })),
     staleTime: Number.POSITIVE_INFINITY,
   });
@@ -30,9 +28,23 @@ export function WelcomePage() {
   }
   return (
     <EntryFrame title={invited.data ? `Welcome, ${invited.data.name}` : 'Welcome'}>
-      {invited.data && <SetPassword token={token} {...invited.data} />}
+      {invited.data && <SetPassword key={token} token={token} {...invited.data} />}
     </EntryFrame>
   );
+}
+
+/** The secret of the link that was opened last. */
+function useToken(): string {
+  const hash = useLocation({ select: (location) => location.hash });
+  const navigate = useNavigate();
+  const [token, setToken] = useState(hash);
+  // The secret leaves the address, so that it stays neither in the history nor on the screen.
+  useEffect(() => {
+    if (hash === '') return;
+    setToken(hash);
+    void navigate({ to: '/welcome', replace: true });
+  }, [hash, navigate]);
+  return token;
 }
 
 function SetPassword({ token, name, role }: { token: string; name: string; role: string }) {

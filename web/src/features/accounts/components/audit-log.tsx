@@ -42,6 +42,7 @@ export function AuditLog() {
         name="Audit log"
         columns={['When', 'Who', 'What', 'Outcome', 'From', 'Where', 'More']}
         wordColumns={7}
+        mostRows={Number.POSITIVE_INFINITY}
         rows={entries.map((entry) => [
           formatMoment(entry.at),
           entry.who,

@@ -10,6 +10,7 @@ import type { Emphasis } from '@/lib/curves';
 import { formatPlural, formatShare } from '@/lib/format';
 import { bestQuery } from '../api/get-best';
 import { type CompareSearch, EFFORTS, type Effort, partsOf, REACHED, toggled, USUAL_REACHED } from '../search';
+import { standingOut } from '../view';
 import classes from './best.module.css';
 import { BestBars } from './best-bars';
 import controls from './controls.module.css';
@@ -53,7 +54,7 @@ export function BestTab({ search, onShow }: Props) {
 function Figures({ best, search, onShow }: Props & { best: BestModels }) {
   const scheme = useComputedColorScheme('light');
   const [near, setNear] = useState<Emphasis | null>(null);
-  const emphasis = near ?? (search.pin === undefined ? null : { key: search.pin });
+  const emphasis = standingOut(best.groups, near, search.pin);
   const onPick = ({ key }: Emphasis): void => onShow((old) => ({ pin: old.pin === key ? undefined : key }));
   const look = { groups: best.groups, scheme };
   const tables = partsOf(search.tables);

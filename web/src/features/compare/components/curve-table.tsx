@@ -3,7 +3,7 @@
 import type { Panel } from '@/client/schema.gen';
 import { AnchorLink } from '@/components/anchor-link';
 import { NumberTable } from '@/components/number-table';
-import { AXIS_NAMES, formatX } from '@/lib/axes';
+import { AXIS_NAMES, formatPlace } from '@/lib/axes';
 import { type Curve, placesOf, rowAt } from '@/lib/curves';
 import { NOTHING } from '@/lib/format';
 import { formatY, type PanelView } from '../view';
@@ -30,7 +30,10 @@ export function CurveTable({ panel, curves, view, height }: Props) {
       <NumberTable
         name={`${panel.task}: ${metricName}`}
         columns={[AXIS_NAMES[axis], ...columns.map(({ title }) => title)]}
-        rows={placesOf(curves).map((place) => [formatX(axis, place), ...columns.map(({ textAt }) => textAt(place))])}
+        rows={placesOf(curves).map((place) => [
+          formatPlace(axis, place),
+          ...columns.map(({ textAt }) => textAt(place)),
+        ])}
         height={height}
       />
       <p className={classes.members}>

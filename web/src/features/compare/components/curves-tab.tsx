@@ -6,7 +6,7 @@ import { isShare } from '@/lib/axes';
 import type { Emphasis } from '@/lib/curves';
 import type { Range } from '@/lib/zoom';
 import { type CompareSearch, partsOf, toggled } from '../search';
-import { type PanelView, windowOf } from '../view';
+import { type PanelView, standingOut, windowOf } from '../view';
 import { CurveControls } from './curve-controls';
 import { GroupLegend } from './group-legend';
 import { LeftOutNotes } from './left-out-notes';
@@ -68,6 +68,7 @@ function usePanelView(search: CompareSearch, comparison: CurveComparison, onShow
       groups: comparison.groups,
       metric: comparison.metric,
       metricName: comparison.words.metric,
+      statistic: comparison.words.statistic,
       axis: comparison.x,
       scheme,
       weight: smooth ?? 0,
@@ -75,7 +76,7 @@ function usePanelView(search: CompareSearch, comparison: CurveComparison, onShow
       isLogY: logy === 'yes',
       isShare: isShare(comparison.metric),
       ...window,
-      emphasis: near ?? (pin === undefined ? null : { key: pin }),
+      emphasis: standingOut(comparison.groups, near, pin),
       onZoom,
       onNear,
       onPick,

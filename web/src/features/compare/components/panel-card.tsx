@@ -8,7 +8,7 @@ import { AXIS_NAMES, formatX, xSteps } from '@/lib/axes';
 import type { Curve } from '@/lib/curves';
 import { useGrowing } from '@/lib/use-growing';
 import { useSeen } from '@/lib/use-seen';
-import { panelCurves, panelLegend, yExtent } from '../panels';
+import { panelCurves, panelLegend, sourcesOf, yExtent } from '../panels';
 import { formatTick, type PanelView } from '../view';
 import { CurveTable } from './curve-table';
 import classes from './panels.module.css';
@@ -53,7 +53,7 @@ export const PanelCard = memo(function PanelCard({ panel, view, height, isTable,
       {hasPoints && isTable && <CurveTable panel={panel} curves={curves} view={view} height={height} />}
       {hasPoints && !isTable && (
         <div className={classes.plot} style={{ height }}>
-          {isSeen && <Curves task={panel.task} curves={curves} view={view} height={height} />}
+          {isSeen && <Curves panel={panel} curves={curves} view={view} height={height} />}
         </div>
       )}
     </figure>
@@ -61,19 +61,21 @@ export const PanelCard = memo(function PanelCard({ panel, view, height, isTable,
 });
 
 interface CurvesProps {
-  task: string;
+  panel: Panel;
   curves: readonly Curve[];
   view: PanelView;
   height: number;
 }
 
-function Curves({ task, curves, view, height }: CurvesProps) {
-  const { axis, isShare, isLogX, isLogY, range, metric, metricName } = view;
+function Curves({ panel, curves, view, height }: CurvesProps) {
+  const { axis, isShare, isLogX, isLogY, range, metric, metricName, statistic } = view;
   const [place, setPlace] = useState<number | null>(null);
   const extent = useMemo(() => yExtent(curves, range, isShare, isLogY), [curves, range, isShare, isLogY]);
-  const look = [metric, axis, isLogY, view.weight, range[0], view.range === view.whole ? '' : range[1]].join('\n');
+  const sources = useMemo(() => sourcesOf(panel), [panel]);
+  const end = view.range === view.whole ? '' : range[1];
+  const look = [metric, statistic, axis, isLogY, view.weight, range[0], end, sources].join('\n');
   const yRange = useGrowing(extent, look) ?? [0, 1];
-  const showX = useCallback((value: number) => formatX(axis, value), [axis]);
+  const showX = useCallback((value: number, step?: number) => formatX(axis, value, step), [axis]);
   const showY = useCallback((value: number) => formatTick(isShare, value), [isShare]);
   return (
     <>
@@ -89,7 +91,7 @@ function Curves({ task, curves, view, height }: CurvesProps) {
         formatX={showX}
         formatY={showY}
         onPoint={(next, isHere) => setPlace(isHere ? next : null)}
-        description={`${task}: ${metricName.toLowerCase()} over ${AXIS_NAMES[axis].toLowerCase()}`}
+        description={`${panel.task}: ${metricName.toLowerCase()} over ${AXIS_NAMES[axis].toLowerCase()}`}
         describePlace={(at) => describeReadings(curves, at, view)}
       />
       {place !== null && <Readout curves={curves} place={place} view={view} />}

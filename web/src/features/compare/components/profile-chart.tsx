@@ -39,8 +39,8 @@ export function ProfileChart({ profiles, groups, scheme, ...rest }: Props) {
         range={zoom ?? ALL}
         whole={ALL}
         yRange={SHARES}
-        formatX={formatShare}
-        formatY={formatShare}
+        formatX={showShare}
+        formatY={showShare}
         onPoint={setPlace}
         onZoom={setZoom}
         description="Share of runs over best test success"
@@ -73,4 +73,8 @@ function profileCurves(profiles: readonly Profile[], groups: readonly Group[], s
       },
     ];
   });
+}
+
+function showShare(value: number): string {
+  return formatShare(value);
 }

@@ -11,7 +11,7 @@ interface Props {
 }
 
 export function SettingRows({ form, onChange }: Props) {
-  const { draft, groups, problems } = form;
+  const { draft, groups, problems, isVaried } = form;
   const settings = groups.flatMap((group) => group.settings);
   const replace = (place: number, row: SettingRow | undefined): void =>
     onChange({ rows: draft.rows.flatMap((old, at) => (at === place ? (row ?? []) : old)) });
@@ -35,7 +35,7 @@ export function SettingRows({ form, onChange }: Props) {
           <CloseButton size="sm" aria-label={`Remove ${row.path}`} onClick={() => replace(place, undefined)} />
         </div>
       ))}
-      {draft.variants && draft.variants.length > 0 && (
+      {!isVaried && draft.variants && draft.variants.length > 0 && (
         <p>
           Variants {draft.variants.map((variant) => `“${variant.name}”`).join(', ')} are kept as they were.{' '}
           <Button variant="subtle" size="compact-xs" onClick={() => onChange({ variants: [] })}>

@@ -13,10 +13,15 @@ export function useMoveRun() {
       unwrap(client.POST('/api/runs/{run_id}/move', { params: { path: { run_id: runId } }, body: { before } })),
     onMutate: async (move) => {
       await queries.cancelQueries({ queryKey: QUEUE_KEY });
+      const known = queries.getQueriesData<Queue>({ queryKey: QUEUE_KEY });
       queries.setQueriesData<Queue>(
         { queryKey: QUEUE_KEY },
         (queue) => queue && { ...queue, entries: reordered(queue.entries, move) },
       );
+      return known;
+    },
+    onError: (_error, _move, known = []) => {
+      for (const [key, queue] of known) queries.setQueryData(key, queue);
     },
     onSettled: () => refreshRuns(queries),
   });

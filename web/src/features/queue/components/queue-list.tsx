@@ -22,7 +22,12 @@ export function QueueList({ queue }: { queue: ShownQueue }) {
   const move = (wish: Move | undefined): void => {
     if (wish === undefined) return;
     focused.current = document.activeElement;
-    moving.mutate(wish, { onError: (error) => toast({ text: sentence(error), isProblem: true }) });
+    moving.mutate(wish, {
+      onError: (error) => {
+        toast({ text: sentence(error), isProblem: true });
+        setNews('The order is as it was.');
+      },
+    });
     setNews(sentenceOf(entries, wish));
   };
   return (

@@ -38,6 +38,8 @@ export function QueueRow({ entry, isMovable, isDragged, isTarget, onDrag, onDrop
   const press = (event: KeyboardEvent): void => {
     if (!event.altKey || (event.key !== 'ArrowUp' && event.key !== 'ArrowDown')) return;
     event.preventDefault();
+    // The field of the priority would step too.
+    event.stopPropagation();
     onMove(event.key === 'ArrowUp' ? up : down);
   };
   const over = (event: DragEvent<HTMLLIElement>): void => {
@@ -53,7 +55,7 @@ export function QueueRow({ entry, isMovable, isDragged, isTarget, onDrag, onDrop
       data-run={run.id}
       data-dragged={isDragged || undefined}
       data-edge={edge ?? undefined}
-      onKeyDown={press}
+      onKeyDownCapture={press}
       onDragOver={over}
       onDragLeave={() => setEdge(null)}
       onDrop={(event) => {
@@ -145,7 +147,7 @@ function Priority({ entry: { run } }: { entry: QueueEntry }) {
           value={run.priority}
           label={`Priority of ${runTitle(run)}`}
           onSet={(priority) =>
-            setting.mutate(
+            setting.mutateAsync(
               { runIds: [run.id], priority },
               { onError: (error) => toast({ text: sentence(error), isProblem: true }) },
             )

@@ -2,7 +2,7 @@
 import { useMutation, useQuery } from '@tanstack/react-query';
 import { useEffect } from 'react';
 import type { InspectorView, ViewerSession } from '@/client/schema.gen';
-import { client, unwrap } from '@/lib/api';
+import { client, Refused, unwrap } from '@/lib/api';
 import type { SceneRequest } from '../scene-choice';
 
 const STARTING_POLL_MS = 250; // [ms]
@@ -33,10 +33,12 @@ export function useViewerSession() {
     };
   }, [id]);
   const session: ViewerSession | undefined = id === undefined ? undefined : (following.data ?? opening.data);
+  // A question that fails once says nothing about a view that is open; that there is no such session does.
+  const isGone = following.error instanceof Refused && following.error.status === 404;
   return {
     session,
     isOpening: opening.isPending,
-    error: opening.error ?? following.error,
+    error: opening.error ?? (following.data === undefined || isGone ? following.error : null),
     open: opening.mutate,
     close: opening.reset,
   };

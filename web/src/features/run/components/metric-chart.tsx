@@ -44,7 +44,7 @@ export function MetricChart({ chart, view, height }: { chart: ChartSpec; view: C
       chart.series.map(({ label }, at) => ({ label, raw: points.raw[at] ?? [], smoothed: points.smoothed[at] ?? [] })),
     [chart, points],
   );
-  const showX = useCallback((value: number) => formatX(axis, value), [axis]);
+  const showX = useCallback((value: number, step?: number) => formatX(axis, value, step), [axis]);
   const showY = useCallback((value: number) => formatY(chart, value).replace('.0\u202f', '\u202f'), [chart]);
   const valuesAt = (end: number): string =>
     chart.series

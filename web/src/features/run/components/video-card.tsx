@@ -1,7 +1,11 @@
 /** Videos with their state: waiting, being drawn, to be played, or why not. */
 import { Anchor, Button, Loader } from '@mantine/core';
 import type { Video } from '@/client/schema.gen';
+import { OnlyFor } from '@/components/only-for';
+import { useToast } from '@/components/toasts';
+import { sentence } from '@/lib/api';
 import { isOnItsWay, useOrderVideo } from '../api/videos';
+import type { Format } from '../video-sizes';
 import classes from './videos.module.css';
 
 export function VideoList({ videos }: { videos: readonly Video[] }) {
@@ -17,10 +21,9 @@ export function VideoList({ videos }: { videos: readonly Video[] }) {
 }
 
 function VideoCard({ video }: { video: Video }) {
-  const again = useOrderVideo(video.run_id);
-  const format = video.name.endsWith('.webm') ? 'webm' : 'mp4';
+  const format = formatOf(video);
   const title = videoTitle(video);
-  const { epoch, number, width, height } = video;
+  const { width, height } = video;
   return (
     <>
       <div className={classes.frame} style={{ aspectRatio: `${width} / ${height}` }}>
@@ -35,9 +38,9 @@ function VideoCard({ video }: { video: Video }) {
         {video.state === 'failed' && (
           <div role="alert">
             <p>{video.reason}</p>
-            <Button size="xs" onClick={() => again.mutate({ epoch, number, width, height, format })}>
-              Try again
-            </Button>
+            <OnlyFor least="operator">
+              <TryAgain video={video} />
+            </OnlyFor>
           </div>
         )}
       </div>
@@ -54,6 +57,26 @@ function VideoCard({ video }: { video: Video }) {
       </div>
     </>
   );
+}
+
+function TryAgain({ video }: { video: Video }) {
+  const toast = useToast();
+  const order = useOrderVideo(video.run_id);
+  const { epoch, number, width, height } = video;
+  const again = (): void =>
+    order.mutate(
+      { epoch, number, width, height, format: formatOf(video) },
+      { onError: (error) => toast({ text: sentence(error), isProblem: true }) },
+    );
+  return (
+    <Button size="xs" onClick={again} loading={order.isPending}>
+      Try again
+    </Button>
+  );
+}
+
+function formatOf({ name }: Video): Format {
+  return name.endsWith('.webm') ? 'webm' : 'mp4';
 }
 
 function videoTitle({ epoch, number }: Video): string {

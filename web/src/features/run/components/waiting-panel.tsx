@@ -53,7 +53,7 @@ function Needed({ runId, isOneOfMany }: { runId: string; isOneOfMany: boolean })
     <span className={classes.waiting}>
       <StateBadge state={locomotion.state} wish={wishOf(locomotion)} />
       <RunProgress progress={locomotion.progress} state={locomotion.state} label="Progress of the locomotion run" />
-      <span className="number">test success {formatShare(locomotion.progress?.success_rate)}</span>
+      <span className="number">test success {formatShare(locomotion.progress?.success_rate, 1)}</span>
       {isOneOfMany && (
         <AnchorLink to="/runs/$runId" params={{ runId }} fz="inherit">
           {locomotion.task}

@@ -130,9 +130,10 @@ function Row({ runId, episode, isChosen, onChoose }: RowProps) {
       <td>{episode.resimulates ? 'to the same bits' : 'differently'}</td>
       <td>
         <AnchorLink
+          from="/runs/$runId"
           to="/runs/$runId"
           params={{ runId }}
-          search={{ tab: '3d', episode: name }}
+          search={(old) => ({ ...old, tab: '3d', episode: name })}
           fz="inherit"
           aria-label={`Watch episode ${name} in 3D`}
         >

@@ -55,9 +55,10 @@ function Shown({ runId, timelines }: { runId: string; timelines: Timelines }) {
           {episode.worst_q !== null && ` · worst q ${formatValue(episode.worst_q)} at step ${episode.worst_q_step}`}
         </span>
         <ButtonLink
+          from="/runs/$runId"
           to="/runs/$runId"
           params={{ runId }}
-          search={{ tab: '3d', episode: episodeName(episode) }}
+          search={(old) => ({ ...old, tab: '3d', episode: episodeName(episode) })}
           size="compact-sm"
           ml="auto"
           leftSection={<Icon name="cube" size={14} />}

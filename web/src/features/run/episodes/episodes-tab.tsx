@@ -1,8 +1,8 @@
 /** The episodes that tests recorded: how they ended over the training, a list, and what happened in one. */
 import { Button, Select } from '@mantine/core';
-import { useQuery, useQueryClient } from '@tanstack/react-query';
-import { useMemo, useState } from 'react';
-import type { RunDetail } from '@/client/schema.gen';
+import { useInfiniteQuery, useQuery, useQueryClient } from '@tanstack/react-query';
+import { useMemo } from 'react';
+import type { Episode, EpisodeList, RunDetail } from '@/client/schema.gen';
 import { SentencePanel } from '@/components/sentence-panel';
 import { sentence } from '@/lib/api';
 import { formatPlural } from '@/lib/format';
@@ -12,8 +12,8 @@ import type { RunSearch } from '../search';
 import { EpisodeTable } from './episode-table';
 import { EpisodeTimelines } from './episode-timelines';
 import classes from './episodes.module.css';
-import { episodesQuery, PAGE_ROWS } from './get-episodes';
-import { readEpisode, searchOf, sortingOf } from './place';
+import { episodesQuery } from './get-episodes';
+import { episodeName, readEpisode, searchOf, sortingOf } from './place';
 import { testShares } from './shares';
 import { SharesChart } from './shares-chart';
 import { TAG_NAMES, TAGS, type Tag } from './tags';
@@ -41,10 +41,11 @@ export function EpisodesTab({ run, search, onShow }: Props) {
 }
 
 function Listed({ run, search, onShow, isLive }: Props & { isLive: boolean }) {
-  const [limit, setLimit] = useState(PAGE_ROWS);
   const sorting = sortingOf(search);
-  const wanted = { ...sorting, tag: search.tag, epoch: search.test, limit };
-  const { data, error } = useQuery(episodesQuery(run.id, wanted, isLive));
+  const wanted = { ...sorting, tag: search.tag, epoch: search.test };
+  const { data, error, fetchNextPage, isFetchingNextPage, isFetchNextPageError } = useInfiniteQuery(
+    episodesQuery(run.id, wanted, isLive),
+  );
   if (error && !data) {
     return (
       <SentencePanel urgent title="The episodes cannot be listed">
@@ -52,8 +53,9 @@ function Listed({ run, search, onShow, isLive }: Props & { isLive: boolean }) {
       </SentencePanel>
     );
   }
-  if (data === undefined) return null;
-  if (data.epochs.length === 0) {
+  const first = data?.pages[0];
+  if (data === undefined || first === undefined) return null;
+  if (first.epochs.length === 0) {
     return (
       <SentencePanel title="No episodes yet">
         The first episodes of every test are kept and appear here after the first test. How many is the setting
@@ -61,31 +63,49 @@ function Listed({ run, search, onShow, isLive }: Props & { isLive: boolean }) {
       </SentencePanel>
     );
   }
+  const episodes = episodesOf(data.pages);
   return (
     <>
       <div className={classes.filters}>
-        <Narrow search={search} epochs={data.epochs} onShow={onShow} />
-        <span className="faint number">{formatPlural(data.total, 'recorded episode')}</span>
+        <Narrow search={search} epochs={first.epochs} onShow={onShow} />
+        <span className="faint number">{formatPlural(first.total, 'recorded episode')}</span>
       </div>
-      {data.episodes.length === 0 ? (
+      {episodes.length === 0 ? (
         <SentencePanel title="No recorded episode matches these filters" />
       ) : (
         <EpisodeTable
           runId={run.id}
-          episodes={data.episodes}
+          episodes={episodes}
           sorting={sorting}
           chosen={search.episode}
           onSort={(next) => onShow(searchOf(next))}
           onChoose={(episode) => onShow({ episode: episode === search.episode ? undefined : episode })}
         />
       )}
-      {data.total > data.episodes.length && (
-        <Button variant="default" size="compact-sm" mt="xs" onClick={() => setLimit(limit + PAGE_ROWS)}>
-          Show more of {formatPlural(data.total, 'episode')}
+      {first.total > episodes.length && (
+        <Button
+          variant="default"
+          size="compact-sm"
+          mt="xs"
+          loading={isFetchingNextPage}
+          onClick={() => fetchNextPage()}
+        >
+          Show more of {formatPlural(first.total, 'episode')}
         </Button>
+      )}
+      {isFetchNextPageError && (
+        <p className="problem" role="alert">
+          {sentence(error)}
+        </p>
       )}
     </>
   );
+}
+
+/** All that is shown, each once: a test that ends between two answers moves the rows on. */
+function episodesOf(pages: readonly EpisodeList[]): Episode[] {
+  const episodes = pages.flatMap((page) => page.episodes);
+  return [...new Map(episodes.map((episode) => [episodeName(episode), episode])).values()];
 }
 
 interface NarrowProps {

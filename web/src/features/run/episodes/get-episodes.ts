@@ -1,25 +1,30 @@
 /** The recorded episodes of a run, and what happened in one of them. */
-import { keepPreviousData, queryOptions } from '@tanstack/react-query';
+import { infiniteQueryOptions, keepPreviousData, queryOptions } from '@tanstack/react-query';
 import { client, unwrap } from '@/lib/api';
 import { SLOW_POLL_MS } from '@/lib/queries';
 import type { EpisodePlace, EpisodeSorting } from './place';
 import type { Tag } from './tags';
 
 /** Rows that a press on "more" adds. */
-export const PAGE_ROWS = 50;
+const PAGE_ROWS = 50;
 
 interface Wanted extends EpisodeSorting {
   readonly tag?: Tag;
   readonly epoch?: number;
-  /** How many rows from the first on. */
-  readonly limit: number;
 }
 
 export function episodesQuery(runId: string, wanted: Wanted, isLive: boolean) {
-  return queryOptions({
+  return infiniteQueryOptions({
     queryKey: ['runs', 'episodes', runId, wanted],
-    queryFn: ({ signal }) =>
-      unwrap(client.GET('/api/runs/{run_id}/episodes', { params: { path: { run_id: runId }, query: wanted }, signal })),
+    queryFn: ({ pageParam, signal }) => {
+      const query = { ...wanted, limit: PAGE_ROWS, offset: pageParam };
+      return unwrap(client.GET('/api/runs/{run_id}/episodes', { params: { path: { run_id: runId }, query }, signal }));
+    },
+    initialPageParam: 0,
+    getNextPageParam: ({ total }, pages) => {
+      const shown = pages.reduce((sum, page) => sum + page.episodes.length, 0);
+      return shown < total ? shown : undefined;
+    },
     refetchInterval: isLive ? SLOW_POLL_MS : false,
     placeholderData: keepPreviousData,
   });

@@ -97,16 +97,16 @@ function BulkPriority({ runs }: { runs: readonly RunSummary[] }) {
   const [isOpen, { toggle, close }] = useDisclosure(false);
   const toast = useToast();
   const setting = useSetPriority();
-  const set = (priority: number): void => {
+  const set = (priority: number): Promise<void> => {
     const runIds = runs.map((run) => run.id);
-    setting.mutate(
+    close();
+    return setting.mutateAsync(
       { runIds, priority },
       {
         onSuccess: () => toast({ text: `${formatPlural(runs.length, 'run')} now of priority ${priority}.` }),
         onError: (error) => toast({ text: sentence(error), isProblem: true }),
       },
     );
-    close();
   };
   return (
     <Popover opened={isOpen} onChange={close} position="top" withArrow>

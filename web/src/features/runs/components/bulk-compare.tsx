@@ -7,6 +7,9 @@ import type { RunSummary } from '@/client/schema.gen';
 /** More runs make an address that is longer than servers read. */
 const MOST_COMPARED = 200;
 
+/** As many configs as the server tells apart. */
+const MOST_CONFIGS = 50;
+
 export function BulkCompare({ runs }: { runs: readonly RunSummary[] }) {
   if (runs.length > MOST_COMPARED) return null;
   const ofRobot = runs.filter((run) => run.phase === 'manipulation');
@@ -20,7 +23,9 @@ export function BulkCompare({ runs }: { runs: readonly RunSummary[] }) {
       >
         Compare
       </PageLink>
-      {runs.length > 1 && <PageLink href={`/compare/configs?runs=${idsOf(runs)}`}>Differences</PageLink>}
+      {runs.length > 1 && runs.length <= MOST_CONFIGS && (
+        <PageLink href={`/compare/configs?runs=${idsOf(runs)}`}>Differences</PageLink>
+      )}
     </>
   );
 }

@@ -1,13 +1,13 @@
 /** The runs as cards, for narrow screens; they scroll with the page. */
 import { useWindowVirtualizer } from '@tanstack/react-virtual';
 import { useEffect, useLayoutEffect, useRef, useState } from 'react';
-import { AnchorLink } from '@/components/anchor-link';
 import { formatPlural } from '@/lib/format';
 import { groupTitle } from '../group-words';
 import { useLineKeys } from '../use-line-keys';
 import type { TableProps } from '../use-table';
 import { GroupWords } from './group-line';
 import classes from './lines.module.css';
+import { MoreLink } from './more-link';
 import { RunCard } from './run-card';
 import { SelectBox } from './select-box';
 import { heightOf, OVERSCAN, VirtualLines, withActive } from './virtual-lines';
@@ -94,9 +94,7 @@ export function RunCards({ search, lines, table, onRange }: TableProps) {
       <li {...place}>
         <div className={`card ${classes.card}`}>
           {line.kind === 'more' ? (
-            <AnchorLink to="/" search={line.search}>
-              Show all, {formatPlural(line.count, 'run')} more
-            </AnchorLink>
+            <MoreLink {...box} line={line} />
           ) : (
             <span className={classes.bone} aria-hidden="true" />
           )}

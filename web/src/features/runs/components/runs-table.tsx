@@ -1,13 +1,12 @@
 /** The runs as a dense table that scrolls by itself, however many they are. */
 import { useVirtualizer } from '@tanstack/react-virtual';
 import { useEffect, useRef } from 'react';
-import { AnchorLink } from '@/components/anchor-link';
-import { formatPlural } from '@/lib/format';
 import { BUILT_INS, METRIC_WIDTH, shownColumns } from '../columns';
 import { useLineKeys } from '../use-line-keys';
 import type { TableProps } from '../use-table';
 import { GroupLine } from './group-line';
 import classes from './lines.module.css';
+import { MoreLink } from './more-link';
 import { RunLine } from './run-line';
 import { TableHead } from './table-head';
 import { heightOf, OVERSCAN, VirtualLines, withActive } from './virtual-lines';
@@ -79,14 +78,12 @@ export function RunsTable({ search, lines, table, onRange }: TableProps) {
       );
     }
     return (
-      <tbody ref={virtualizer.measureElement} data-index={index} className={classes.waiting}>
+      <tbody ref={virtualizer.measureElement} data-index={index} data-line={index} className={classes.waiting}>
         <tr aria-rowindex={index + 2}>
           <td />
           <td colSpan={span}>
             {line.kind === 'more' ? (
-              <AnchorLink to="/" search={line.search} fz={12.5}>
-                Show all, {formatPlural(line.count, 'run')} more
-              </AnchorLink>
+              <MoreLink line={line} isActive={place.isActive} onFocus={place.onFocus} />
             ) : (
               <span className={classes.bone} aria-hidden="true" />
             )}

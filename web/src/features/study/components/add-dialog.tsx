@@ -7,29 +7,30 @@ import { PreviewSums } from '@/components/preview-sums';
 import { SettingField } from '@/components/setting-field';
 import { sentence } from '@/lib/api';
 import { choicesQuery } from '@/lib/queries';
-import { parseSeeds } from '@/lib/seeds';
+import { MOST_STUDY_SEEDS, parseSeeds } from '@/lib/seeds';
 import { leaves, readVariants } from '@/lib/setting-rows';
 import { readSettingGroups } from '@/lib/settings';
 import { previewQuery } from '@/lib/study-preview';
-import type { StudyWish } from '@/lib/use-study-action';
+import { useDialogWish } from '../use-dialog-wish';
 
 interface Props {
   study: StudyDetail;
   isOpen: boolean;
   onClose: () => void;
-  onSend: (wish: StudyWish) => void;
 }
 
-export function AddDialog({ study, isOpen, onClose, onSend }: Props) {
+export function AddDialog({ study, isOpen, onClose }: Props) {
   return (
     <Modal opened={isOpen} onClose={onClose} title="Add to the study" centered>
-      {isOpen && <Form study={study} onClose={onClose} onSend={onSend} />}
+      {isOpen && <Form study={study} onClose={onClose} />}
     </Modal>
   );
 }
 
-function Form({ study, onClose, onSend }: Omit<Props, 'isOpen'>) {
-  const { spec } = study;
+function Form({ study, onClose }: Omit<Props, 'isOpen'>) {
+  // Once the new runs are queued they belong to the study; the dialog then still says what it was asked for.
+  const [spec] = useState(study.spec);
+  const { send, error, isPending } = useDialogWish(onClose);
   const { data: choices } = useQuery(choicesQuery);
   const [seedText, setSeedText] = useState(String(Math.max(...spec.seeds) + 1));
   const [tasks, setTasks] = useState<string[]>([]);
@@ -51,7 +52,8 @@ function Form({ study, onClose, onSend }: Omit<Props, 'isOpen'>) {
     methods: [...spec.methods, ...methods],
     variants: [...(spec.variants ?? []), ...variants],
   };
-  const preview = useQuery(previewQuery(isEmpty || isUnread ? null : longer, study.id));
+  const preview = useQuery(previewQuery(isEmpty || isUnread || isPending ? null : longer, study.id));
+  const isPreviewed = preview.data !== undefined && !preview.isPlaceholderData && !preview.isFetching;
   const others = (names: readonly { name: string }[] = [], known: readonly string[] = []): string[] =>
     names.map(({ name }) => name).filter((name) => !known.includes(name));
   return (
@@ -84,16 +86,19 @@ function Form({ study, onClose, onSend }: Omit<Props, 'isOpen'>) {
       {isEmpty && !isUnread && <p className="faint">The study has all of that already.</p>}
       {preview.data && !isEmpty && <PreviewSums preview={preview.data} />}
       {preview.error && <p className="problem">{sentence(preview.error)}</p>}
+      {error && (
+        <p className="problem" role="alert">
+          {sentence(error)}
+        </p>
+      )}
       <Group justify="flex-end" gap="xs">
         <Button variant="default" onClick={onClose}>
           Leave it
         </Button>
         <Button
-          disabled={isEmpty || isUnread || preview.isError}
-          onClick={() => {
-            onSend({ action: 'extend', studyId: study.id, addition: { seeds, tasks, methods, variants } });
-            onClose();
-          }}
+          disabled={isEmpty || isUnread || preview.isError || !isPreviewed}
+          loading={isPending}
+          onClick={() => send({ action: 'extend', studyId: study.id, addition: { seeds, tasks, methods, variants } })}
         >
           Add and queue
         </Button>
@@ -105,7 +110,7 @@ function Form({ study, onClose, onSend }: Omit<Props, 'isOpen'>) {
 function readSeeds(text: string): { seeds: number[]; problem?: string } {
   if (text.trim() === '') return { seeds: [] };
   try {
-    return { seeds: parseSeeds(text) };
+    return { seeds: parseSeeds(text, MOST_STUDY_SEEDS) };
   } catch (error) {
     return { seeds: [], problem: (error as Error).message };
   }

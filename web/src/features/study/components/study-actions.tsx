@@ -73,8 +73,8 @@ export function StudyActions({ study }: { study: StudyDetail }) {
       >
         Delete
       </Button>
-      <AddDialog study={study} isOpen={isAdding} onClose={adding.close} onSend={send} />
-      <EditDialog study={study} isOpen={isEditing} onClose={editing.close} onSend={send} />
+      <AddDialog study={study} isOpen={isAdding} onClose={adding.close} />
+      <EditDialog study={study} isOpen={isEditing} onClose={editing.close} />
     </span>
   );
 }
@@ -86,16 +86,29 @@ function Ways({ study }: { study: StudyDetail }) {
       <ButtonLink to="/compare" search={{ study: study.id }} size="xs" leftSection={<Icon name="chart" size={14} />}>
         Compare
       </ButtonLink>
-      <Button
-        component="a"
-        href={`/api/study-files/${study.id}`}
-        download
-        size="xs"
-        variant="default"
-        title="One file with the runs that have succeeded, for another installation"
-      >
+      <Export study={study} />
+    </>
+  );
+}
+
+function Export({ study }: { study: StudyDetail }) {
+  if (!study.states.succeeded) {
+    return (
+      <Button disabled size="xs" variant="default" title="It can be exported once a run has succeeded">
         Export
       </Button>
-    </>
+    );
+  }
+  return (
+    <Button
+      component="a"
+      href={`/api/study-files/${study.id}`}
+      download
+      size="xs"
+      variant="default"
+      title="One file with the runs that have succeeded, for another installation"
+    >
+      Export
+    </Button>
   );
 }
