@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from datetime import datetime
+from typing import Any
 
 from sqlalchemy import ColumnElement, Connection, extract, func, literal, select
 
@@ -38,7 +39,7 @@ def read_training_times(conn: Connection, run_ids: Sequence[str]) -> dict[str, T
     return times
 
 
-def training_seconds(now: datetime) -> ColumnElement[float]:
+def training_seconds(now: datetime) -> ColumnElement[Any]:
     """Return how long the run of a query's row was trained until now, in SQL [s]; null without an attempt."""
     end = func.coalesce(attempts.c.ended_at, literal(now, UtcDateTime()))
     seconds = func.sum(extract("epoch", end) - extract("epoch", attempts.c.started_at))
