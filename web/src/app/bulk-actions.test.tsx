@@ -50,6 +50,7 @@ test('of more runs than the server tells apart no differences are offered', asyn
   await user.click(await screen.findByRole('checkbox', { name: 'Select all runs of this table' }));
   expect(within(await bar()).getByRole('link', { name: 'Compare' })).toBeTruthy();
   expect(within(await bar()).queryByRole('link', { name: 'Differences' })).toBeNull();
+  expect(within(await bar()).getByRole<HTMLButtonElement>('button', { name: 'Differences' }).disabled).toBe(true);
 });
 
 test('cancelling several asks once', async () => {

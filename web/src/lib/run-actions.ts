@@ -31,7 +31,7 @@ export const ACTION_MEANING: Record<Action, string> = {
   retry: 'Try it again, from its last checkpoint.',
   pause: 'Save a checkpoint at the end of the cycle and free the slot.',
   cancel: 'End it; what it has learnt so far stays.',
-  delete: 'Hide it from every list; this can be undone.',
+  delete: 'Hide it from every list; this can be undone, and frees no disk.',
   restore: 'Bring it back as it was.',
 };
 

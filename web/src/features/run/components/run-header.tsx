@@ -28,22 +28,22 @@ export function RunHeader({ run, updatedAt }: { run: RunDetail; updatedAt: numbe
         {!hasEnded(run.state) && <Freshness updatedAt={updatedAt} />}
         <span className={classes.actions}>
           {run.has_recording && <RecordingButton runId={run.id} />}
-          <ButtonLink
-            to="/launch"
-            search={{
-              task: run.task,
-              phase: run.phase,
-              method: run.method,
-              preset: run.preset,
-              seeds: String(run.seed),
-              from: run.id,
-            }}
-            variant="default"
-            size="xs"
-          >
-            Launch again
-          </ButtonLink>
           <OnlyFor least="operator">
+            <ButtonLink
+              to="/launch"
+              search={{
+                task: run.task,
+                phase: run.phase,
+                method: run.method,
+                preset: run.preset,
+                seeds: String(run.seed),
+                from: run.id,
+              }}
+              variant="default"
+              size="xs"
+            >
+              Launch again
+            </ButtonLink>
             <RunActions run={run} />
           </OnlyFor>
         </span>

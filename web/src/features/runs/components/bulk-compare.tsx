@@ -11,7 +11,6 @@ const MOST_COMPARED = 200;
 const MOST_CONFIGS = 50;
 
 export function BulkCompare({ runs }: { runs: readonly RunSummary[] }) {
-  if (runs.length > MOST_COMPARED) return null;
   const ofRobot = runs.filter((run) => run.phase === 'manipulation');
   // The compare page shows one phase, that of the robot unless it is told otherwise.
   const [compared, phase] = ofRobot.length > 0 ? [ofRobot, ''] : [runs, '&phase=locomotion'];
@@ -20,11 +19,15 @@ export function BulkCompare({ runs }: { runs: readonly RunSummary[] }) {
       <PageLink
         href={`/compare?runs=${idsOf(compared)}${phase}`}
         title={compared.length < runs.length ? 'Compares the manipulation runs alone' : undefined}
+        count={compared.length}
+        most={MOST_COMPARED}
       >
         Compare
       </PageLink>
-      {runs.length > 1 && runs.length <= MOST_CONFIGS && (
-        <PageLink href={`/compare/configs?runs=${idsOf(runs)}`}>Differences</PageLink>
+      {runs.length > 1 && (
+        <PageLink href={`/compare/configs?runs=${idsOf(runs)}`} count={runs.length} most={MOST_CONFIGS}>
+          Differences
+        </PageLink>
       )}
     </>
   );
@@ -37,11 +40,21 @@ function idsOf(runs: readonly RunSummary[]): string {
 interface LinkProps {
   href: string;
   title?: string | undefined;
+  /** How many runs are asked for, and how many the page takes. */
+  count: number;
+  most: number;
   children: ReactNode;
 }
 
-function PageLink({ href, title, children }: LinkProps) {
+function PageLink({ href, title, count, most, children }: LinkProps) {
   const { history } = useRouter();
+  if (count > most) {
+    return (
+      <Button disabled title={`It takes ${most} runs at most; choose fewer`} variant="default" size="compact-sm">
+        {children}
+      </Button>
+    );
+  }
   const go = (event: MouseEvent): void => {
     if (event.metaKey || event.ctrlKey || event.shiftKey) return;
     event.preventDefault();

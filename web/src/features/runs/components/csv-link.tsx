@@ -1,4 +1,4 @@
-/** The table as it is shown, as a CSV file: all rows, not only those in view. */
+/** What passes the filters, as a CSV file: all rows, not only those in view. */
 import { Button } from '@mantine/core';
 import { Icon } from '@/components/icon';
 import { groupQuery } from '../api/list-groups';
