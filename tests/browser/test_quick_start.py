@@ -118,7 +118,7 @@ def _do(found: Locator, thing: Named, where: str) -> None:
 
 
 def test_the_command_serves_the_whole_product() -> None:
-    assert re.findall(r"^```\n(.*?)^```", TEXT, re.MULTILINE | re.DOTALL) == ["make run\n"]
+    assert re.findall(r"^```\n(.*?)^```", chapter("Start"), re.MULTILINE | re.DOTALL) == ["make run\n"]
     recipe = subprocess.run(["make", "--dry-run", "run"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
     assert re.search(r"sldr serve --host 127\.0\.0\.1 --port 8000$", recipe.strip())
 

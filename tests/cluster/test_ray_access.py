@@ -114,7 +114,7 @@ def test_a_head_that_does_not_listen_is_named(without_token: None, tmp_path: Pat
 def test_a_missing_ray_is_named_with_the_way_out(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
 
-    with pytest.raises(ClusterUnavailable, match=r"pip install 'sldr\[ray\]'"):
+    with pytest.raises(ClusterUnavailable, match=r"pip install '\.\[ray\]'"):
         connect("127.0.0.1:6379", tmp_path)
 
 
