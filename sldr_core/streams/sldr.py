@@ -75,6 +75,8 @@ class SldrStream(FixedStream):
         self._reward = REWARDS[config.reward]
         self._nets = model.nets.to(device)
         self._trained_in = model.config.task
+        # Once: its state is looked at in every cycle, and frozen nets do not change.
+        self._digest = model.nets.digest()
         self._view = view
         self._device = device
         self._autocast = autocast
@@ -106,7 +108,7 @@ class SldrStream(FixedStream):
 
     def state_dict(self) -> dict[str, Any]:
         """Return what tells the model from any other: its w are stored, and critics have learnt from its rewards."""
-        return {"model": self._nets.digest()}
+        return {"model": self._digest}
 
     def load_state_dict(self, state: dict[str, Any]) -> None:
         """Go on with the same model; checkpoints of earlier versions do not say which it was.
@@ -114,7 +116,7 @@ class SldrStream(FixedStream):
         Raises:
             BadFile: it is another one.
         """
-        if state.get("model", self._nets.digest()) != self._nets.digest():
+        if state.get("model", self._digest) != self._digest:
             raise BadFile(
                 f"The run in this directory began with another locomotion model of {self._trained_in}; give that one, "
                 "or use another directory."
