@@ -13,7 +13,7 @@ from sldr_core.errors import InvalidConfig
 from worker.executors.local import LocalExecutor
 from worker.executors.ray_needs import CORES_OF_A_RUN
 from worker.machine import describe_machine, find_gpus
-from worker.sentences import BAD_INPUT, sentence_of
+from worker.sentences import tell
 from worker.supervisor import Supervisor
 
 
@@ -27,11 +27,7 @@ def main() -> int:
         make = {"local": _work_here, "ray": _work_on_cluster}[options.executor]
         supervisor = make(options, db, settings)
     except Exception as err:
-        sentence = sentence_of(err)
-        if sentence is None:
-            raise
-        print(sentence, file=sys.stderr)
-        return BAD_INPUT
+        return tell(err)
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda *_: supervisor.ask_to_stop())
     supervisor.run()

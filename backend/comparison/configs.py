@@ -7,10 +7,10 @@ from dataclasses import asdict
 from itertools import combinations
 
 from backend.comparison.records import ComparedConfig, ConfigComparison, MethodPair, MethodSwitch, Setting
-from backend.comparison.variants import as_text, flatten
+from backend.comparison.variants import as_text
 from backend.store.database import Database
 from backend.store.runs import get_run
-from sldr_core.config import METHODS, method_switches
+from sldr_core.config import METHODS, flatten, method_switches
 
 
 def compare_configs(db: Database, run_ids: Sequence[str]) -> ConfigComparison:

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from backend.comparison.variants import PLACES, Variant, as_text, flatten
+from backend.comparison.variants import PLACES, Variant, as_text
 from backend.store.compared_runs import ComparedRun
+from sldr_core.config import flatten
 
 
 def name_models(runs: Sequence[ComparedRun], configs: Mapping[str, Mapping[str, Any]]) -> dict[str, str]:

@@ -6,9 +6,9 @@ import json
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
-from typing import Any, cast
+from typing import Any
 
-from sldr_core.config import Phase, config_to_dict
+from sldr_core.config import Phase, config_to_dict, flatten
 from sldr_core.errors import SldrError
 from sldr_core.presets import make_config
 
@@ -25,17 +25,6 @@ _ELSEWHERE = frozenset((*IDENTITY, *PLACES))
 
 Variant = tuple[tuple[str, str], ...]
 """Settings and their values as text, sorted by name."""
-
-
-def flatten(config: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
-    """Return nested settings as one level with dotted names."""
-    flat: dict[str, Any] = {}
-    for name, value in config.items():
-        if isinstance(value, dict):
-            flat |= flatten(cast(dict[str, Any], value), f"{prefix}{name}.")
-        else:
-            flat[f"{prefix}{name}"] = value
-    return flat
 
 
 def as_text(value: Any) -> str:

@@ -13,12 +13,12 @@ from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
 from backend.comparison.records import BestModels, Cell, CurveComparison
-from backend.comparison.variants import flatten
 from backend.figures.csv_tables import best_csv, curves_csv, plain_csv, write_csv
 from backend.figures.drawing import Drawing, Format, draw_apart
 from backend.figures.latex import best_latex, curves_latex
 from backend.figures.references import REFERENCES
 from backend.figures.styles import Width
+from sldr_core.config import flatten
 
 FORMATS: tuple[Format, ...] = ("svg", "pdf", "png")
 PACKAGES = ("sldr", "numpy", "torch", "mujoco", "mjbatch", "gymnasium", "gymnasium-robotics", "matplotlib")

@@ -1,5 +1,6 @@
 """What can be asked for: tasks, methods and the settings of one training."""
 
+from sldr_core.config.flat import flatten
 from sldr_core.config.method_settings import CurriculumConfig, RndConfig, SldrConfig, SldrReward
 from sldr_core.config.methods import (
     LOCOMOTION_METHOD,
@@ -94,6 +95,7 @@ __all__ = [
     "config_to_dict",
     "find_method",
     "find_task",
+    "flatten",
     "method_switches",
     "settings_hash",
     "stream_names",

@@ -5,9 +5,9 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
-from sldr_core.config import LOCOMOTION_METHOD, TASKS, TaskSpec
+from sldr_core.config import LOCOMOTION_METHOD, TASKS, TaskSpec, flatten
 from sldr_core.presets import PRESETS, QUICK_GAMMA, Preset, make_config
 from sldr_core.presets.markdown import SETTING_HEADS, setting_rows, table
 
@@ -62,7 +62,7 @@ def main() -> None:
 
 
 def _changes_of(preset: Preset) -> str:
-    robot, alone = dict(_flat(preset.manipulation)), dict(_flat(preset.locomotion))
+    robot, alone = flatten(preset.manipulation), flatten(preset.locomotion)
     names = dict.fromkeys([*robot, *alone])
     return table(
         ("setting", "robot", "object alone"),
@@ -106,18 +106,10 @@ def _originals() -> Iterator[tuple[str, str]]:
     tasks: dict[str, list[str]] = {}
     for task in TASKS.values():
         if task.original:
-            told = ", ".join(f"`{name}` = {json.dumps(value)}" for name, value in _flat(task.original))
+            told = ", ".join(f"`{name}` = {json.dumps(value)}" for name, value in flatten(task.original).items())
             tasks.setdefault(told, []).append(f"`{task.name}`")
     for told, names in tasks.items():
         yield ", ".join(names), told
-
-
-def _flat(settings: Mapping[str, Any], path: str = "") -> Iterator[tuple[str, Any]]:
-    for name, value in settings.items():
-        if isinstance(value, Mapping):
-            yield from _flat(cast(Mapping[str, Any], value), f"{path}{name}.")
-        else:
-            yield f"{path}{name}", value
 
 
 if __name__ == "__main__":

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 from backend.comparison.groups import group_runs
-from backend.comparison.variants import deviations, distinguishing, flatten, label
+from backend.comparison.variants import deviations, distinguishing, label
 from backend.store.compared_runs import ComparedRun
 from backend.store.states import RunState
-from sldr_core.config import config_to_dict
+from sldr_core.config import config_to_dict, flatten
 from sldr_core.presets import make_config
 
 RUN = ComparedRun("a", 1, "FetchPush", "manipulation", "her", 0, "quick", 1, "hash", RunState.SUCCEEDED, 5)

@@ -9,7 +9,7 @@ from importlib import import_module
 from importlib.metadata import version
 
 from sldr_core.errors import UnknownName
-from worker.sentences import BAD_INPUT, sentence_of
+from worker.sentences import tell
 
 COMMANDS = {
     "serve": "Serve the page in the browser, with a worker and the 3D viewer.",
@@ -72,11 +72,7 @@ def _run(command: str, arguments: list[str]) -> int:
     except KeyboardInterrupt:
         return 130
     except Exception as error:
-        sentence = sentence_of(error)
-        if sentence is None:
-            raise
-        print(f"sldr: {sentence}", file=sys.stderr)
-        return BAD_INPUT
+        return tell(error, speaker="sldr: ")
 
 
 def _help() -> str:

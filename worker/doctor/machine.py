@@ -15,6 +15,7 @@ from pathlib import Path
 from backend.client.access import find_local_server
 from worker.doctor.finding import Finding, ok, poor, wrong
 from worker.machine import VISIBLE_VARIABLE, DriverSilent, Gpu, ask_for_gpus
+from worker.ports import HIGHEST_PORT
 from worker.render import MISSING_EGL
 
 DRAWN_WITHIN_S = 60.0
@@ -29,7 +30,6 @@ LITTLE_ROOM = 20 * 10**9
 """Less free space than this is soon used up: one run of the paper's size keeps about 1 GB of replay [bytes]."""
 NO_ROOM = 10**9
 """With less free space than this, runs fail [bytes]."""
-MOST_PORTS = 65535
 FEW_NODES = 100_000
 """Fewer free file nodes than this are soon used up."""
 
@@ -106,8 +106,8 @@ def describe_disk(home: Path, free: int, total: int, free_nodes: int | None) -> 
 
 def look_at_port(host: str, port: int) -> Finding:
     """See whether the service could listen, or already does."""
-    if not 1 <= port <= MOST_PORTS:
-        return wrong("port", f"There is no port {port}.", f"choose one from 1 to {MOST_PORTS}, such as 8000.")
+    if not 1 <= port <= HIGHEST_PORT:
+        return wrong("port", f"There is no port {port}.", f"choose one from 1 to {HIGHEST_PORT}, such as 8000.")
     served = find_local_server()
     if served is not None and served.endswith(f":{port}"):
         return ok("port", f"The service runs at {served}.")

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from datetime import timedelta
 
 from backend.client.records.runs import RunDetail
-from backend.comparison.variants import as_text, flatten
+from backend.comparison.variants import as_text
 from backend.store.database import Database
 from backend.store.runs import RunRow
+from sldr_core.config import flatten
 from sldr_core.records import Step
 from worker.recording.curves import read_curves
 

@@ -27,6 +27,7 @@ from sldr_core.errors import SldrError
 from worker.media.drawing_process import DrawingProcess, Target
 from worker.media.orders import Answer, Drawn, DrawOrder, NotDrawn
 from worker.media.process import serve_orders
+from worker.sentences import unreadable
 
 LOOK_S = 0.5
 """Time between two looks for orders [s]."""
@@ -121,9 +122,7 @@ class MediaHost:
             fail_media(self._database, job, str(err))
             return
         except OSError as err:
-            fail_media(
-                self._database, job, f"A file of the run cannot be read ({err}); let this machine's viewer read it."
-            )
+            fail_media(self._database, job, unreadable(err))
             return
         self._drawing = _Drawing(job, order, begun=now, renewed=now)
         self._process.send(order)

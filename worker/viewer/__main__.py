@@ -17,7 +17,8 @@ from backend.store.errors import StoreUnavailable
 from backend.store.settings import Settings, load_settings
 from sldr_core.errors import InvalidConfig
 from worker.media.host import MediaHost
-from worker.sentences import BAD_INPUT, sentence_of
+from worker.ports import HIGHEST_PORT
+from worker.sentences import tell
 from worker.viewer.host import Host
 from worker.viewer.process import serve_session
 from worker.viewer.warming import keep_warm
@@ -27,8 +28,6 @@ POLL_S = 0.2
 
 STORE_RETRY_S = 2.0
 """Time to wait after the store could not be used [s]."""
-
-MOST_PORTS = 65535
 
 log = logging.getLogger("sldr.viewer")
 
@@ -41,8 +40,8 @@ def main() -> int:
     options = parser.parse_args()
     settings = load_settings()
     try:
-        if not 0 <= options.port <= MOST_PORTS:
-            raise InvalidConfig({"port": f"it must be between 0 and {MOST_PORTS}, got {options.port}"})
+        if not 0 <= options.port <= HIGHEST_PORT:
+            raise InvalidConfig({"port": f"it must be between 0 and {HIGHEST_PORT}, got {options.port}"})
         start_logging("viewer", settings.logs_directory, load_style())
         if options.policy is not None:
             _show_one(options.policy, options.port)
@@ -51,11 +50,7 @@ def main() -> int:
     except KeyboardInterrupt:
         return 0
     except Exception as err:
-        sentence = sentence_of(err)
-        if sentence is None:
-            raise
-        print(sentence, file=sys.stderr)
-        return BAD_INPUT
+        return tell(err)
     return 0
 
 

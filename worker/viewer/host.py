@@ -25,6 +25,7 @@ from backend.store.errors import FilesUnavailable
 from backend.store.settings import Settings
 from backend.store.storage import FileStorage
 from sldr_core.errors import SldrError
+from worker.sentences import unreadable
 from worker.viewer.reports import Broken, Job, Ready, Report, Watched
 from worker.viewer.session_files import Files, RunFiles, find_session_files
 
@@ -144,7 +145,7 @@ class Host:
             self._refuse(session, str(err))
             return
         except OSError as err:
-            self._refuse(session, f"A file of the run cannot be read ({err}); let this machine's viewer read it.")
+            self._refuse(session, unreadable(err))
             return
         if not self._make_room():
             watched = f"All {self.limits.sessions} 3D views of this machine are being watched"

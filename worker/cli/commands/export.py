@@ -285,12 +285,12 @@ def _figure_file(content: CurveComparison | BestModels, form: str, width: Width)
 
 def _write(out: Path, content: bytes) -> int:
     _check_place(out)
-    write_atomically(out, lambda path: _fill(path, content))
+
+    def write(path: Path) -> None:
+        path.write_bytes(content)
+
+    write_atomically(out, write)
     return _tell(out)
-
-
-def _fill(path: Path, content: bytes) -> None:
-    path.write_bytes(content)
 
 
 def _check_place(out: Path) -> None:

@@ -19,6 +19,7 @@ from backend.store.settings import load_settings
 from backend.store.storage import FileStorage
 from sldr_core.errors import InvalidConfig, SldrError
 from worker.cli.children import Child
+from worker.ports import HIGHEST_PORT
 
 LOOK_INTERVAL_S = 0.2
 """How often the children are looked at [s]."""
@@ -107,8 +108,8 @@ def keep(children: dict[str, Child], address: str, greeting: Callable[[], str]) 
 
 def check_port(host: str, port: int) -> None:
     """Raise a sentence if nobody can listen there."""
-    if not 1 <= port <= 65535:
-        raise InvalidConfig({"port": f"it must be between 1 and 65535, got {port}"})
+    if not 1 <= port <= HIGHEST_PORT:
+        raise InvalidConfig({"port": f"it must be between 1 and {HIGHEST_PORT}, got {port}"})
     try:
         found = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)
     except socket.gaierror as error:

@@ -1,17 +1,9 @@
 /** The run's figures in one strip. */
 import type { ReactNode } from 'react';
 import type { RunDetail } from '@/client/schema.gen';
+import { Elapsed } from '@/components/elapsed';
 import { RunProgress } from '@/components/run-progress';
-import {
-  formatCount,
-  formatDuration,
-  formatMoment,
-  formatRate,
-  formatShare,
-  NOTHING,
-  secondsBetween,
-} from '@/lib/format';
-import { useNow } from '@/lib/use-now';
+import { formatCount, formatDuration, formatMoment, formatRate, formatShare, NOTHING } from '@/lib/format';
 import classes from './run.module.css';
 
 export function RunFigures({ run }: { run: RunDetail }) {
@@ -32,7 +24,7 @@ export function RunFigures({ run }: { run: RunDetail }) {
       <Figure name="Time left">{isRunning ? formatDuration(progress?.seconds_left) : NOTHING}</Figure>
       <Figure name="Duration">
         <span title={run.started_at ? `Started ${formatMoment(run.started_at)}` : undefined}>
-          <Duration run={run} />
+          <Elapsed run={run} />
         </span>
       </Figure>
     </dl>
@@ -46,10 +38,4 @@ function Figure({ name, isWide, children }: { name: string; isWide?: boolean; ch
       <dd className="number">{children}</dd>
     </div>
   );
-}
-
-function Duration({ run }: { run: RunDetail }) {
-  const now = useNow();
-  if (run.started_at === null) return NOTHING;
-  return <>{formatDuration(run.trained_s + (secondsBetween(run.training_since, now) ?? 0))}</>;
 }

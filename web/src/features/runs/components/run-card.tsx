@@ -1,6 +1,7 @@
 /** One run as a card. */
 import type { ComponentProps, ReactNode } from 'react';
 import { AnchorLink } from '@/components/anchor-link';
+import { Elapsed } from '@/components/elapsed';
 import { RunProgress } from '@/components/run-progress';
 import { RunThumbnail } from '@/components/run-thumbnail';
 import { StateBadge } from '@/components/state-badge';
@@ -11,7 +12,7 @@ import { wishOf } from '@/lib/states';
 import type { Line, Lines } from '../lines';
 import { formatMetric, parseMetricColumn, statisticName } from '../metric-columns';
 import classes from './lines.module.css';
-import { Elapsed, Launched, Speed, Success } from './run-figures';
+import { Launched, Speed, Success } from './run-figures';
 import { hasNote, RunNote } from './run-note';
 import { SelectBox } from './select-box';
 

@@ -1,6 +1,7 @@
 /** One cell of a run, by the key of its column. */
 import type { RunSummary } from '@/client/schema.gen';
 import { AnchorLink } from '@/components/anchor-link';
+import { Elapsed } from '@/components/elapsed';
 import { RunProgress } from '@/components/run-progress';
 import { RunThumbnail } from '@/components/run-thumbnail';
 import { StateBadge } from '@/components/state-badge';
@@ -10,7 +11,7 @@ import { runTitle } from '@/lib/run-title';
 import { wishOf } from '@/lib/states';
 import { BUILT_INS, type BuiltIn } from '../columns';
 import classes from './lines.module.css';
-import { Elapsed, Launched, Speed, Success } from './run-figures';
+import { Launched, Speed, Success } from './run-figures';
 
 /** Fits a line of the table [px]. */
 const THUMBNAIL_WIDTH = 36;

@@ -1,14 +1,6 @@
 /** The figures of a run that the table and the cards both show. */
 import type { Progress, RunSummary } from '@/client/schema.gen';
-import {
-  formatAgo,
-  formatDuration,
-  formatMoment,
-  formatShare,
-  formatShort,
-  NOTHING,
-  secondsBetween,
-} from '@/lib/format';
+import { formatAgo, formatMoment, formatShare, formatShort, NOTHING, secondsBetween } from '@/lib/format';
 import { useNow } from '@/lib/use-now';
 import classes from './lines.module.css';
 
@@ -36,17 +28,6 @@ export function Speed({ run }: { run: RunSummary }) {
       <span className="faint"> / {formatShort(updates_per_s)}</span>
     </span>
   );
-}
-
-/** How long a run has been trained; pauses and waits do not count. */
-export function Elapsed({ run }: { run: RunSummary }) {
-  if (run.training_since !== null) return <Running since={run.training_since} before={run.trained_s} />;
-  return <>{run.started_at === null ? NOTHING : formatDuration(run.trained_s)}</>;
-}
-
-function Running({ since, before }: { since: string; before: number }) {
-  const now = useNow();
-  return <>{formatDuration(before + (secondsBetween(since, now) ?? 0))}</>;
 }
 
 /** How long ago it was launched; the moments of launch and start on hover. */
