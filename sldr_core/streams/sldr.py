@@ -73,10 +73,10 @@ class SldrStream(FixedStream):
         self._stored = f"{self.name}/induced_action"
         self.stored_sizes: Mapping[str, int] = {self._stored: model.config.task_spec.object_action_size}
         self._reward = REWARDS[config.reward]
-        self._nets = model.nets.to(device)
         self._trained_in = model.config.task
         # Once: its state is looked at in every cycle, and frozen nets do not change.
         self._digest = model.nets.digest()
+        self._nets = model.nets.to(device)
         self._view = view
         self._device = device
         self._autocast = autocast
