@@ -6,6 +6,7 @@ from dataclasses import asdict
 from typing import Any, cast
 
 from backend.api.schemas import Progress, RunDetail, RunSummary
+from backend.comparison.variants import changes
 from backend.store.files import FileRow
 from backend.store.runs import RunRow
 from sldr_core.config import Phase
@@ -65,5 +66,6 @@ def _summary_fields(row: RunRow) -> dict[str, Any]:
         "priority": row.priority,
         "deleted_at": row.deleted_at,
         "settings_hash": row.settings_hash,
+        "changes": changes(row.config, row.config_hash, row.preset),
         "tags": list(row.tags),
     }

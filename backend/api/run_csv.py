@@ -6,6 +6,7 @@ import csv
 import io
 from collections.abc import Iterable, Sequence
 
+from backend.comparison.variants import changes
 from backend.store.metric_columns import MetricColumn
 from backend.store.run_groups import GroupKey, RunGroup
 from backend.store.runs import RunRow, RunRows
@@ -17,6 +18,7 @@ RUN_HEAD = (
     "method",
     "seed",
     "preset",
+    "changes",
     "state",
     "attempt",
     "tags",
@@ -84,6 +86,7 @@ def _run_cells(row: RunRow) -> list[object]:
         row.method,
         row.seed,
         row.preset,
+        " ".join(changes(row.config, row.config_hash, row.preset)),
         row.state.value,
         row.attempt,
         ", ".join(row.tags),

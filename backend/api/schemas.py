@@ -163,6 +163,9 @@ class RunSummary(Strict):
     priority: int = Field(description="Runs of a higher one start first.")
     deleted_at: datetime | None = Field(description="When a person hid it; it can be restored.")
     settings_hash: str = Field(description="Equal for runs that differ in nothing but the seed.")
+    changes: list[str] = Field(
+        description="Settings in which it is not as its preset, as overrides; the device and threads are none."
+    )
     tags: list[str] = Field(description="What people call it, in the order of the alphabet.")
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any
 
@@ -45,6 +46,11 @@ def deviations(config: Mapping[str, Any], preset: str) -> Variant:
     )
 
 
+def changes(config: Mapping[str, Any], config_hash: str, preset: str) -> list[str]:
+    """Return the settings in which a run's config is not what its preset gives, as overrides: `loop.epochs=12`."""
+    return list(_changes(_Asked(config_hash, preset, config)))
+
+
 def distinguishing(variants: Iterable[Variant]) -> set[str]:
     """Return the settings that not all variants share; what all share tells nothing apart."""
     sets = [set(variant) for variant in variants]
@@ -65,6 +71,20 @@ def label(variant: Variant, names: Sequence[str]) -> str:
 def _short(name: str, lasts: Counter[str]) -> str:
     last = name.rpartition(".")[2]
     return last if lasts[last] == 1 else name
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """Name a config, so that it is looked through once however often tables show it."""
+
+    config_hash: str
+    preset: str
+    config: Mapping[str, Any] = field(compare=False)
+
+
+@lru_cache(maxsize=4096)
+def _changes(asked: _Asked) -> tuple[str, ...]:
+    return tuple(f"{name}={value}" for name, value in deviations(asked.config, asked.preset))
 
 
 @lru_cache(maxsize=1024)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import json
 from typing import Any
 
@@ -40,10 +42,15 @@ def test_a_second_launch_shares_the_locomotion_run(service: Service):
     assert plan[1]["reused_run_id"] is None
 
 
-def test_overrides_reach_the_config(service: Service):
-    order = ORDER | {"overrides": {"loop": {"batch_size": 32}}}
-    run = service.client.post("/api/launches", json=order).json()["runs"][-1]
+def test_overrides_reach_the_config_and_tell_runs_apart_in_the_table(service: Service):
+    plain = service.client.post("/api/launches", json=ORDER).json()["runs"][-1]
+    overrides = {"loop": {"batch_size": 32}, "compute": {"threads": 2}}
+    run = service.client.post("/api/launches", json=ORDER | {"overrides": overrides}).json()["runs"][-1]
     assert service.get(f"/api/runs/{run['id']}")["config"]["loop"]["batch_size"] == 32
+    changes = {run["id"]: run["changes"] for run in service.get("/api/runs")["runs"]}
+    assert (changes[plain["id"]], changes[run["id"]]) == ([], ["loop.batch_size=32"])
+    table = csv.DictReader(io.StringIO(service.client.get("/api/runs.csv").text))
+    assert {row["id"]: row["changes"] for row in table}[run["id"]] == "loop.batch_size=32"
 
 
 @pytest.mark.parametrize(

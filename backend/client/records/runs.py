@@ -66,6 +66,8 @@ class Run:
     deleted_at: datetime | None
     settings_hash: str
     """Equal for runs that differ in nothing but the seed."""
+    changes: list[str]
+    """Settings in which it is not as its preset, as overrides."""
     tags: list[str]
 
     @property

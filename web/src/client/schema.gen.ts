@@ -3172,6 +3172,11 @@ export interface components {
              * @description It will end; its worker has not ended it yet.
              */
             cancel_requested: boolean;
+            /**
+             * Changes
+             * @description Settings in which it is not as its preset, as overrides; the device and threads are none.
+             */
+            changes: string[];
             /** Config */
             config: {
                 [key: string]: unknown;
@@ -3411,6 +3416,11 @@ export interface components {
              * @description It will end; its worker has not ended it yet.
              */
             cancel_requested: boolean;
+            /**
+             * Changes
+             * @description Settings in which it is not as its preset, as overrides; the device and threads are none.
+             */
+            changes: string[];
             /**
              * Created At
              * Format: date-time

@@ -117,6 +117,7 @@ export const RUN: RunSummary = {
   priority: 0,
   deleted_at: null,
   settings_hash: 'fedcba9876543210',
+  changes: [],
   tags: [],
 };
 

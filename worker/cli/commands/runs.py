@@ -15,7 +15,7 @@ from worker.cli.service import Server, Wanted, open_service
 
 MOST_ROWS = 10_000
 """Runs listed at once at most."""
-HEAD = ("ID", "STATE", "TASK", "PHASE", "METHOD", "SEED", "PRESET", "DONE", "BEST")
+HEAD = ("ID", "STATE", "TASK", "PHASE", "METHOD", "SEED", "PRESET", "DONE", "BEST", "CHANGES")
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -72,4 +72,4 @@ def _as_lines(rows: Sequence[Run]) -> list[str]:
 def _cells(row: Run) -> tuple[Any, ...]:
     done, best = (row.progress.fraction, row.progress.best_success_rate) if row.progress else (0.0, None)
     told = (f"{done:.0%}", "-" if best is None else f"{best:.1%}")
-    return row.id, row.state, row.task, row.phase, row.method, row.seed, row.preset, *told
+    return row.id, row.state, row.task, row.phase, row.method, row.seed, row.preset, *told, " ".join(row.changes)

@@ -17,6 +17,7 @@ from backend.client.records.studies import (
     StudyPreview,
     StudySpec,
 )
+from backend.comparison.variants import changes
 from backend.store import launches, runs
 from backend.store.database import Database, open_database
 from backend.store.launches import LaunchOrder
@@ -107,7 +108,12 @@ class StoreService:
 
 def run_record(row: RunRow) -> RunDetail:
     """Return a row of the store as the API would answer it."""
-    told = {"config": row.config, "state": row.state.value, "locomotion_run_id": row.needs[0] if row.needs else None}
+    told = {
+        "config": row.config,
+        "state": row.state.value,
+        "changes": changes(row.config, row.config_hash, row.preset),
+        "locomotion_run_id": row.needs[0] if row.needs else None,
+    }
     values = {**asdict(row), **told}
     return _DETAIL.validate_python(values)
 

@@ -13,16 +13,17 @@ export interface Column {
 /** By key, in the order of the table. The server sorts by the same keys. */
 const COLUMNS = {
   state: { name: 'State', width: 106, isSortable: true },
-  task: { name: 'Task', width: 176, isSortable: true },
-  phase: { name: 'Phase', width: 100, isSortable: true },
-  method: { name: 'Method', width: 80, isSortable: true },
+  task: { name: 'Task', width: 174, isSortable: true },
+  phase: { name: 'Phase', width: 98, isSortable: true },
+  method: { name: 'Method', width: 86, isSortable: true },
   seed: { name: 'Seed', width: 46, isNumber: true, isSortable: true },
   preset: { name: 'Preset', width: 60, isSortable: true },
+  changes: { name: 'Changes', width: 150, help: 'Settings in which it is not as its preset' },
   tags: { name: 'Tags', width: 72, help: 'What people call it; a click narrows the table to a tag' },
-  progress: { name: 'Progress', width: 122, isSortable: true, isLargestFirst: true, help: 'Epoch it is in, of all' },
+  progress: { name: 'Progress', width: 104, isSortable: true, isLargestFirst: true, help: 'Epoch it is in, of all' },
   success: {
     name: 'Success',
-    width: 94,
+    width: 104,
     isNumber: true,
     isSortable: true,
     isLargestFirst: true,
@@ -36,9 +37,9 @@ const COLUMNS = {
     isLargestFirst: true,
     help: 'Environment steps per second, and gradient updates per second',
   },
-  left: { name: 'Left', help: 'Time it will still take', width: 60, isNumber: true, isSortable: true },
+  left: { name: 'Left', help: 'Time it will still take', width: 54, isNumber: true, isSortable: true },
   duration: { name: 'Duration', width: 68, isNumber: true, isSortable: true, isLargestFirst: true },
-  launched: { name: 'Launched', width: 78, isNumber: true, isSortable: true, isLargestFirst: true },
+  launched: { name: 'Launched', width: 94, isNumber: true, isSortable: true, isLargestFirst: true },
 } satisfies Record<string, Column>;
 
 export type BuiltIn = keyof typeof COLUMNS;
@@ -52,7 +53,9 @@ export function isBuiltIn(key: string): key is BuiltIn {
 }
 
 /** Shown unless others are chosen: all that fits on a small screen. */
-export const USUAL_COLUMNS: readonly BuiltIn[] = BUILT_IN_KEYS.filter((key) => key !== 'preset' && key !== 'duration');
+export const USUAL_COLUMNS: readonly BuiltIn[] = BUILT_IN_KEYS.filter(
+  (key) => key !== 'preset' && key !== 'changes' && key !== 'duration',
+);
 
 /** The columns that are shown; which run it is, is always. */
 export function shownColumns(chosen: readonly BuiltIn[] = USUAL_COLUMNS): readonly BuiltIn[] {

@@ -39,6 +39,7 @@ export function RunCard({ line, metrics, isSelected, findRun, onTag, box }: Prop
       </div>
       <div className="faint">
         {run.phase} · {run.method} · seed {run.seed} · {run.preset}
+        {run.changes.length > 0 && ` · ${run.changes.join(' ')}`}
       </div>
       {run.tags.length > 0 && <TagChips tags={run.tags} onPick={onTag} />}
       {run.progress && <RunProgress progress={run.progress} state={run.state} label={`Progress of ${runTitle(run)}`} />}

@@ -16,6 +16,9 @@ import { Launched, Speed, Success } from './run-figures';
 /** Fits a line of the table [px]. */
 const THUMBNAIL_WIDTH = 36;
 
+/** Columns that few look for. */
+const FAINT: ReadonlySet<BuiltIn> = new Set(['preset', 'changes']);
+
 interface Props {
   column: BuiltIn;
   run: RunSummary;
@@ -34,7 +37,7 @@ export function RunCell({ column, run, onTag }: Props) {
     );
   }
   return (
-    <td data-number={BUILT_INS[column].isNumber || undefined} className={column === 'preset' ? 'faint' : undefined}>
+    <td data-number={BUILT_INS[column].isNumber || undefined} className={FAINT.has(column) ? 'faint' : undefined}>
       {contentOf(column, run, onTag)}
     </td>
   );
@@ -44,8 +47,11 @@ function contentOf(column: Exclude<BuiltIn, 'task'>, run: RunSummary, onTag: Pro
   switch (column) {
     case 'state':
       return <StateBadge state={run.state} wish={wishOf(run)} />;
-    case 'phase':
     case 'method':
+      return <Method run={run} />;
+    case 'changes':
+      return <span title={run.changes.join('\n')}>{run.changes.map(withoutGroup).join(' ')}</span>;
+    case 'phase':
     case 'seed':
     case 'preset':
       return run[column];
@@ -64,4 +70,20 @@ function contentOf(column: Exclude<BuiltIn, 'task'>, run: RunSummary, onTag: Pro
     case 'launched':
       return <Launched run={run} />;
   }
+}
+
+/** The method, and how many settings are not as the preset has them: runs of a sweep are else all alike. */
+function Method({ run }: { run: RunSummary }) {
+  if (run.changes.length === 0) return run.method;
+  return (
+    <span title={run.changes.join('\n')}>
+      {run.method} <span aria-hidden="true" className={classes.changed}>{`±${run.changes.length} `}</span>
+      <span className="hidden">with {run.changes.join(', ')}</span>
+    </span>
+  );
+}
+
+/** `learning_rate=0.0003` of `agent.learning_rate=0.0003`: columns are narrow, and the whole is in the title. */
+function withoutGroup(change: string): string {
+  return change.replace(/^[^=]*\./, '');
 }
