@@ -110,6 +110,9 @@ class PlannedRun(Strict):
     zoo_success: float | None = Field(
         description="Measured success of the zoo's model, if that serves; null for a run that is trained."
     )
+    equal_run_id: str | None = Field(
+        description="A run with the same config and seed, which the new one would repeat; null if there is none."
+    )
     config: dict[str, Any]
 
 

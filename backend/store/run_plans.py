@@ -40,6 +40,8 @@ class PlannedRun:
     """The existing run that serves, if one does."""
     model: ZooModel | None = None
     """The model of the zoo that it is made from, if it is."""
+    equal_run_id: str | None = None
+    """Of a run to be made: the one that has the same config and learns from the same, if there is one."""
 
     @property
     def zoo_success(self) -> float | None:
@@ -87,12 +89,12 @@ def plan_runs(
     """
     wanted = {config_hash(config): config for config in configs}
     needed = _find_needed(conn, wanted, preset, wish)
-    shareable = {
+    learnt_from = {
         digest: {source.run_id or needed_digest for needed_digest, source in needed[digest].items()}
-        for digest, config in wanted.items()
-        if share_all or config.phase == "locomotion"
+        for digest in wanted
     }
-    serving = find_serving(conn, shareable)
+    equal = find_serving(conn, learnt_from)
+    serving = {digest: run for digest, run in equal.items() if share_all or wanted[digest].phase == "locomotion"}
     # A run that is there already has what it needs, or says itself what became of that.
     of_new_runs = [sources for digest, sources in needed.items() if digest not in serving]
     locomotion = {digest: source for sources in of_new_runs for digest, source in sources.items()}
@@ -104,7 +106,8 @@ def plan_runs(
     ]
     for digest, config in wanted.items():
         needs = () if digest in serving else tuple(needed[digest])
-        plan.append(PlannedRun(config, digest, preset, needs, serving.get(digest)))
+        repeated = None if digest in serving else equal.get(digest)
+        plan.append(PlannedRun(config, digest, preset, needs, serving.get(digest), equal_run_id=repeated))
     return plan
 
 

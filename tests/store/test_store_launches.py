@@ -72,6 +72,22 @@ def test_a_locomotion_run_launched_by_itself_is_shared_too(db: Database) -> None
     assert launch(db, alone) == launch(db, alone)
 
 
+def test_a_robot_s_run_is_trained_again_and_says_which_it_repeats(db: Database) -> None:
+    assert [planned.equal_run_id for planned in plan_launch(db, sldr())] == [None, None]
+    locomotion, first = launch(db, sldr())
+
+    again = plan_launch(db, sldr((0, 1)))
+
+    assert [(planned.reused_run_id, planned.equal_run_id) for planned in again] == [
+        (locomotion, None),
+        (None, first),
+        (None, None),
+    ]
+    assert first not in launch(db, sldr())
+    request_cancel(db, first)
+    assert plan_launch(db, sldr((0,)))[1].equal_run_id not in (None, first)
+
+
 def test_another_preset_trains_its_own_locomotion_run(db: Database) -> None:
     launch(db, sldr())
 

@@ -31,6 +31,7 @@ def plan_launch(launch: Launch, store: Store, settings: ServiceSettings) -> Laun
                 seed=planned.seed,
                 reused_run_id=planned.reused_run_id,
                 zoo_success=planned.zoo_success,
+                equal_run_id=planned.equal_run_id,
                 config=config_to_dict(planned.config),
             )
             for planned in planned_runs

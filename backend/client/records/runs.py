@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import field
 from datetime import datetime
 from typing import Any, Literal
 
@@ -66,9 +67,9 @@ class Run:
     deleted_at: datetime | None
     settings_hash: str
     """Equal for runs that differ in nothing but the seed."""
-    changes: list[str]
-    """Settings in which it is not as its preset, as overrides."""
     tags: list[str]
+    changes: list[str] = field(default_factory=list[str], kw_only=True)
+    """Settings in which it is not as its preset, as overrides."""
 
     @property
     def has_ended(self) -> bool:
@@ -99,6 +100,8 @@ class PlannedRun:
     config: dict[str, Any]
     zoo_success: float | None = None
     """Measured success of the model of the zoo that serves; None for a run that is trained."""
+    equal_run_id: str | None = None
+    """A run with the same config and seed, which the new one would repeat; None if there is none."""
 
 
 @dataclass(frozen=True, config=RECORD)

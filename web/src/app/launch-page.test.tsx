@@ -12,8 +12,15 @@ beforeEach(() => {
     .on('POST /api/launches/plan', () => ({
       body: {
         runs: [
-          { ...PLANNED, phase: 'locomotion', method: 'her', reused_run_id: null, zoo_success: null },
-          { ...PLANNED, phase: 'manipulation', reused_run_id: null, zoo_success: null },
+          {
+            ...PLANNED,
+            phase: 'locomotion',
+            method: 'her',
+            reused_run_id: null,
+            zoo_success: null,
+            equal_run_id: null,
+          },
+          { ...PLANNED, phase: 'manipulation', reused_run_id: null, zoo_success: null, equal_run_id: null },
         ],
       },
     }))
@@ -32,8 +39,8 @@ test('a model of the zoo is told with its measured success, and is not queued', 
   server.on('POST /api/launches/plan', () => ({
     body: {
       runs: [
-        { ...PLANNED, phase: 'locomotion', method: 'her', reused_run_id: null, zoo_success: 0.987 },
-        { ...PLANNED, phase: 'manipulation', reused_run_id: null, zoo_success: null },
+        { ...PLANNED, phase: 'locomotion', method: 'her', reused_run_id: null, zoo_success: 0.987, equal_run_id: null },
+        { ...PLANNED, phase: 'manipulation', reused_run_id: null, zoo_success: null, equal_run_id: null },
       ],
     },
   }));
@@ -45,6 +52,18 @@ test('a model of the zoo is told with its measured success, and is not queued', 
   await waitFor(() =>
     expect(server.bodiesOf('POST', '/api/launches/plan').at(-1)).toMatchObject({ locomotion: 'train' }),
   );
+});
+
+test('a run that only repeats another says so, and is launched all the same', async () => {
+  server.on('POST /api/launches/plan', () => ({
+    body: {
+      runs: [{ ...PLANNED, phase: 'manipulation', reused_run_id: null, zoo_success: null, equal_run_id: 'run-7' }],
+    },
+  }));
+  openPage('/launch');
+  const link = await screen.findByRole('link', { name: 'a run with the same settings and seed' });
+  expect(link.getAttribute('href')).toBe('/runs/run-7');
+  expect(screen.getByRole('button', { name: 'Launch 1 run' })).toBeTruthy();
 });
 
 test('launching sends the choices and leads to the run', async () => {

@@ -2856,6 +2856,11 @@ export interface components {
             config: {
                 [key: string]: unknown;
             };
+            /**
+             * Equal Run Id
+             * @description A run with the same config and seed, which the new one would repeat; null if there is none.
+             */
+            equal_run_id: string | null;
             /** Method */
             method: string;
             /**

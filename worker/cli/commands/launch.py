@@ -82,7 +82,8 @@ def _launch(service: Service, order: Order, dry_run: bool) -> list[str]:
     plan = service.plan(order)
     for planned in plan:
         standing = _source(planned.reused_run_id, planned.zoo_success)
-        print(f"{standing:8} {planned.task:18} {planned.phase:13} {planned.method:10} seed {planned.seed}")
+        repeated = f", repeats {planned.equal_run_id}" if planned.equal_run_id else ""
+        print(f"{standing:8} {planned.task:18} {planned.phase:13} {planned.method:10} seed {planned.seed}{repeated}")
     if dry_run:
         return []
     launched = service.launch(order)

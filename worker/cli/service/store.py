@@ -133,6 +133,7 @@ def _planned(run: launches.PlannedRun) -> PlannedRun:
         reused_run_id=run.reused_run_id,
         config=config_to_dict(run.config),
         zoo_success=run.zoo_success,
+        equal_run_id=run.equal_run_id,
     )
 
 

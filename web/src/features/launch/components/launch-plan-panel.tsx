@@ -106,6 +106,13 @@ function PlanRow({ run, isNeeded }: { run: PlannedRun; isNeeded: boolean }) {
             `from the zoo: ${formatShare(run.zoo_success, 1)} test success`
           ) : isNeeded ? (
             'added first: the robot learns from its model'
+          ) : run.equal_run_id !== null ? (
+            <>
+              {'repeats '}
+              <AnchorLink to="/runs/$runId" params={{ runId: run.equal_run_id }} fz="inherit">
+                a run with the same settings and seed
+              </AnchorLink>
+            </>
           ) : (
             'new'
           )}
