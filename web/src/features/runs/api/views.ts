@@ -11,6 +11,7 @@ export const viewsQuery = queryOptions({
 export type ViewWish =
   | { kind: 'save'; name: string; search: string }
   | { kind: 'rename'; id: string; name: string }
+  | { kind: 'replace'; id: string; search: string }
   | { kind: 'delete'; id: string };
 
 export function useChangeViews() {
@@ -27,5 +28,6 @@ function send(wish: ViewWish): Promise<{ data?: unknown; error?: unknown; respon
   if (wish.kind === 'save') return client.POST('/api/views', { body: { name: wish.name, search: wish.search } });
   const params = { path: { view_id: wish.id } };
   if (wish.kind === 'rename') return client.PATCH('/api/views/{view_id}', { params, body: { name: wish.name } });
+  if (wish.kind === 'replace') return client.PATCH('/api/views/{view_id}', { params, body: { search: wish.search } });
   return client.DELETE('/api/views/{view_id}', { params });
 }

@@ -1,26 +1,28 @@
-/** One saved view: a link to it, and fields to rename or forget it. */
+/** One saved view: a link to it, and what renames, replaces or forgets it. */
 import { ActionIcon, Button, TextInput } from '@mantine/core';
 import { type FormEvent, useState } from 'react';
 import type { SavedView } from '@/client/schema.gen';
 import { AnchorLink } from '@/components/anchor-link';
 import { Icon } from '@/components/icon';
 import { OnlyFor } from '@/components/only-for';
-import type { ViewWish } from '../api/views';
 import { readRunsSearch } from '../search';
 import classes from './runs.module.css';
 
 interface Props {
   view: SavedView;
   isCurrent: boolean;
-  onChange: (wish: ViewWish, onDone?: () => void) => void;
+  onRename: (name: string, onDone: () => void) => void;
+  /** Let it show what is shown now. */
+  onReplace: () => void;
+  onDelete: () => void;
 }
 
-export function ViewRow({ view, isCurrent, onChange }: Props) {
+export function ViewRow({ view, isCurrent, onRename, onReplace, onDelete }: Props) {
   const [name, setName] = useState<string | null>(null);
   if (name !== null) {
     const rename = (event: FormEvent): void => {
       event.preventDefault();
-      if (name.trim() !== '') onChange({ kind: 'rename', id: view.id, name: name.trim() }, () => setName(null));
+      if (name.trim() !== '') onRename(name.trim(), () => setName(null));
     };
     return (
       <form className={classes.line} onSubmit={rename}>
@@ -47,6 +49,17 @@ export function ViewRow({ view, isCurrent, onChange }: Props) {
         {view.name}
       </AnchorLink>
       <OnlyFor least="operator">
+        {!isCurrent && (
+          <Button
+            size="compact-xs"
+            variant="subtle"
+            aria-label={`Let ${view.name} show what is shown now`}
+            title="Let it show what is shown now"
+            onClick={onReplace}
+          >
+            Replace
+          </Button>
+        )}
         <Button
           size="compact-xs"
           variant="subtle"
@@ -55,12 +68,7 @@ export function ViewRow({ view, isCurrent, onChange }: Props) {
         >
           Rename
         </Button>
-        <ActionIcon
-          size="sm"
-          variant="subtle"
-          aria-label={`Delete the view ${view.name}`}
-          onClick={() => onChange({ kind: 'delete', id: view.id })}
-        >
+        <ActionIcon size="sm" variant="subtle" aria-label={`Delete the view ${view.name}`} onClick={onDelete}>
           <Icon name="trash" size={14} />
         </ActionIcon>
       </OnlyFor>

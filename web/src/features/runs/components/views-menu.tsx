@@ -1,8 +1,9 @@
-/** Saved views: open, keep, rename and forget what the table shows. */
+/** Saved views: open, keep, rename, replace and forget what the table shows. */
 import { Button, FocusTrap, Popover, TextInput } from '@mantine/core';
 import { useQuery } from '@tanstack/react-query';
 import { useRouterState } from '@tanstack/react-router';
 import { type FormEvent, useState } from 'react';
+import type { SavedView } from '@/client/schema.gen';
 import { OnlyFor } from '@/components/only-for';
 import { useToast } from '@/components/toasts';
 import { sentence } from '@/lib/api';
@@ -23,6 +24,21 @@ export function ViewsMenu() {
       onSuccess: onDone,
       onError: (error) => toast({ text: sentence(error), isProblem: true }),
     });
+  // Views are everyone's: what one click takes from the others, another gives back.
+  const replace = (view: SavedView): void =>
+    change({ kind: 'replace', id: view.id, search }, () =>
+      toast({
+        text: `The view ${view.name} is what is shown now.`,
+        undo: () => change({ kind: 'replace', id: view.id, search: view.search }),
+      }),
+    );
+  const forget = (view: SavedView): void =>
+    change({ kind: 'delete', id: view.id }, () =>
+      toast({
+        text: `The view ${view.name} is deleted.`,
+        undo: () => change({ kind: 'save', name: view.name, search: view.search }),
+      }),
+    );
   const views = data?.views ?? [];
   const current = views.find((view) => view.search === search);
   return (
@@ -37,7 +53,14 @@ export function ViewsMenu() {
           <FocusTrap.InitialFocus />
           {views.length === 0 && <span className="faint">No view is saved yet.</span>}
           {views.map((view) => (
-            <ViewRow key={view.id} view={view} isCurrent={view === current} onChange={change} />
+            <ViewRow
+              key={view.id}
+              view={view}
+              isCurrent={view === current}
+              onRename={(name, onDone) => change({ kind: 'rename', id: view.id, name }, onDone)}
+              onReplace={() => replace(view)}
+              onDelete={() => forget(view)}
+            />
           ))}
           {current === undefined && (
             <OnlyFor least="operator">
