@@ -213,41 +213,6 @@ test('selecting a closed group asks how its runs stand now', async () => {
   expect(bar.getByRole('button', { name: /^Retry/ })).toBeTruthy();
 });
 
-test('what is shown can be saved, and a saved view opened', async () => {
-  const saved = { id: 'v1', name: 'Failures', search: 'state=failed', created_at: RUN.created_at };
-  server.on('GET /api/views', () => ({ body: { views: [saved] } }));
-  server.on('POST /api/views', () => ({ status: 201, body: { ...saved, id: 'v2' } }));
-  const { user, router } = openPage('/?task=FetchPush');
-  await user.click(await screen.findByRole('button', { name: 'Views' }));
-  await user.type(await screen.findByRole('textbox', { name: 'Name of the view' }), 'Pushes{Enter}');
-  await waitFor(() =>
-    expect(server.bodiesOf('POST', '/api/views')).toEqual([{ name: 'Pushes', search: 'task=FetchPush' }]),
-  );
-  await user.click(await screen.findByRole('link', { name: 'Failures' }));
-  await waitFor(() => expect(router.state.location.search).toEqual({ state: 'failed' }));
-});
-
-test('a view that is replaced or deleted can be had back', async () => {
-  const saved = { id: 'v1', name: 'Failures', search: 'state=failed', created_at: RUN.created_at };
-  server.on('GET /api/views', () => ({ body: { views: [saved] } })).on('DELETE /api/views/v1', () => DONE);
-  server.on('PATCH /api/views/v1', () => ({ body: saved })).on('POST /api/views', () => ({ status: 201, body: saved }));
-  const { user } = openPage('/?task=FetchPush');
-  await user.click(await screen.findByRole('button', { name: 'Views' }));
-  await user.click(await screen.findByRole('button', { name: 'Let Failures show what is shown now' }));
-  await user.click(await screen.findByRole('button', { name: 'Undo' }));
-  await waitFor(() =>
-    expect(server.bodiesOf('PATCH', '/api/views/v1')).toEqual([
-      { search: 'task=FetchPush' },
-      { search: 'state=failed' },
-    ]),
-  );
-  await user.click(await screen.findByRole('button', { name: 'Delete the view Failures' }));
-  await user.click(await screen.findByRole('button', { name: 'Undo' }));
-  await waitFor(() =>
-    expect(server.bodiesOf('POST', '/api/views')).toEqual([{ name: 'Failures', search: 'state=failed' }]),
-  );
-});
-
 test('notes are plain text and can be changed', async () => {
   const notes = '<b id="bold">not bold</b>';
   server.on('GET /api/runs/run-1', () => ({ body: { ...DETAIL, notes } })).on('PUT /api/runs/run-1/notes', () => DONE);
