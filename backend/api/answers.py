@@ -66,6 +66,6 @@ def _summary_fields(row: RunRow) -> dict[str, Any]:
         "priority": row.priority,
         "deleted_at": row.deleted_at,
         "settings_hash": row.settings_hash,
-        "changes": changes(row.config, row.config_hash, row.preset),
+        "changes": changes(row),
         "tags": list(row.tags),
     }

@@ -86,7 +86,7 @@ def _run_cells(row: RunRow) -> list[object]:
         row.method,
         row.seed,
         row.preset,
-        " ".join(changes(row.config, row.config_hash, row.preset)),
+        " ".join(changes(row)),
         row.state.value,
         row.attempt,
         ", ".join(row.tags),

@@ -5,10 +5,10 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any
 
+from backend.store.runs import RunRow
 from sldr_core.config import Phase, config_to_dict, flatten
 from sldr_core.errors import SldrError
 from sldr_core.presets import make_config
@@ -46,9 +46,9 @@ def deviations(config: Mapping[str, Any], preset: str) -> Variant:
     )
 
 
-def changes(config: Mapping[str, Any], config_hash: str, preset: str) -> list[str]:
+def changes(run: RunRow) -> list[str]:
     """Return the settings in which a run's config is not what its preset gives, as overrides: `loop.epochs=12`."""
-    return list(_changes(_Asked(config_hash, preset, config)))
+    return list(_changes(run.config_json, run.preset))
 
 
 def distinguishing(variants: Iterable[Variant]) -> set[str]:
@@ -73,18 +73,10 @@ def _short(name: str, lasts: Counter[str]) -> str:
     return last if lasts[last] == 1 else name
 
 
-@dataclass(frozen=True)
-class _Asked:
-    """Name a config, so that it is looked through once however often tables show it."""
-
-    config_hash: str
-    preset: str
-    config: Mapping[str, Any] = field(compare=False)
-
-
-@lru_cache(maxsize=4096)
-def _changes(asked: _Asked) -> tuple[str, ...]:
-    return tuple(f"{name}={value}" for name, value in deviations(asked.config, asked.preset))
+@lru_cache(maxsize=2048)
+def _changes(config: str, preset: str) -> tuple[str, ...]:
+    """Look through a config, as JSON, once however often tables show it: even reading it takes long for a table."""
+    return tuple(f"{name}={value}" for name, value in deviations(json.loads(config), preset))
 
 
 @lru_cache(maxsize=1024)

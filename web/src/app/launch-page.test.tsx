@@ -4,7 +4,15 @@ import { type FakeServer, problem } from '@/testing/fake-server';
 import { openPage, startServer } from '@/testing/open-page';
 import { CHOICES, DEFAULTS, DETAIL, RUN } from '@/testing/samples';
 
-const PLANNED = { task: 'FetchPush', method: 'her-sldr', seed: 0, config: DEFAULTS };
+const PLANNED = {
+  task: 'FetchPush',
+  method: 'her-sldr',
+  seed: 0,
+  config: DEFAULTS,
+  reused_run_id: null,
+  zoo_success: null,
+  equal_run_id: null,
+};
 
 let server: FakeServer;
 beforeEach(() => {
@@ -12,15 +20,8 @@ beforeEach(() => {
     .on('POST /api/launches/plan', () => ({
       body: {
         runs: [
-          {
-            ...PLANNED,
-            phase: 'locomotion',
-            method: 'her',
-            reused_run_id: null,
-            zoo_success: null,
-            equal_run_id: null,
-          },
-          { ...PLANNED, phase: 'manipulation', reused_run_id: null, zoo_success: null, equal_run_id: null },
+          { ...PLANNED, phase: 'locomotion', method: 'her' },
+          { ...PLANNED, phase: 'manipulation' },
         ],
       },
     }))
@@ -39,8 +40,8 @@ test('a model of the zoo is told with its measured success, and is not queued', 
   server.on('POST /api/launches/plan', () => ({
     body: {
       runs: [
-        { ...PLANNED, phase: 'locomotion', method: 'her', reused_run_id: null, zoo_success: 0.987, equal_run_id: null },
-        { ...PLANNED, phase: 'manipulation', reused_run_id: null, zoo_success: null, equal_run_id: null },
+        { ...PLANNED, phase: 'locomotion', method: 'her', zoo_success: 0.987 },
+        { ...PLANNED, phase: 'manipulation' },
       ],
     },
   }));
@@ -57,7 +58,7 @@ test('a model of the zoo is told with its measured success, and is not queued', 
 test('a run that only repeats another says so, and is launched all the same', async () => {
   server.on('POST /api/launches/plan', () => ({
     body: {
-      runs: [{ ...PLANNED, phase: 'manipulation', reused_run_id: null, zoo_success: null, equal_run_id: 'run-7' }],
+      runs: [{ ...PLANNED, phase: 'manipulation', equal_run_id: 'run-7' }],
     },
   }));
   openPage('/launch');

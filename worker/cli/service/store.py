@@ -111,7 +111,7 @@ def run_record(row: RunRow) -> RunDetail:
     told = {
         "config": row.config,
         "state": row.state.value,
-        "changes": changes(row.config, row.config_hash, row.preset),
+        "changes": changes(row),
         "locomotion_run_id": row.needs[0] if row.needs else None,
     }
     values = {**asdict(row), **told}
