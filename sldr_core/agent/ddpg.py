@@ -17,7 +17,7 @@ from torch.nn.utils import get_total_norm
 from sldr_core.agent.losses import actor_loss, critic_losses, lowest_return, td_target
 from sldr_core.config import AgentConfig
 from sldr_core.nets.adam import Adam
-from sldr_core.nets.descent import descend, slices_of
+from sldr_core.nets.descent import descend, held, slices_of
 from sldr_core.nets.mlp import Mlp, MlpStack
 from sldr_core.nets.normalizer import Drift, Normalizer
 from sldr_core.nets.precision import learner_precision
@@ -194,7 +194,8 @@ class DdpgAgent:
             chosen.append(action.detach())
             return actor_loss(q, self._weights, action.float(), self._config.action_l2)
 
-        mean_loss = descend(loss, slices_of(len(features), self._device), self.actor, self._actor_optimiser)
+        with held(self.critics):
+            mean_loss = descend(loss, slices_of(len(features), self._device), self.actor, self._actor_optimiser)
         return {
             "actor/loss": mean_loss,
             "actor/weight_norm": get_total_norm(list(self.actor.parameters())).detach(),

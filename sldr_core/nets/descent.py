@@ -6,11 +6,14 @@ again. The gradients of the slices add up to those of the batch, so an update st
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from itertools import pairwise
 
 import torch
 from torch import Tensor, nn
+
+from sldr_core.nets.precision import fuses
 
 SLICE_ROWS = 1216
 """Transitions that are worked on at a time, at most: a quarter of the paper's batch."""
@@ -19,11 +22,22 @@ SLICE_ROWS = 1216
 def slices_of(rows: int, device: torch.device) -> list[slice]:
     """Return slices that cover a batch of `rows`, all nearly of the same length.
 
-    A GPU is given the whole batch: there it is starting an operation that takes long.
+    The batch is left whole where products take little time beside what is done once a slice: on a GPU, and on a
+    processor with instructions for bfloat16 while it computes so.
     """
-    count = 1 if device.type == "cuda" else -(-rows // SLICE_ROWS)
+    count = 1 if device.type == "cuda" or fuses(device) else -(-rows // SLICE_ROWS)
     bounds = [rows * index // count for index in range(count + 1)]
     return [slice(start, stop) for start, stop in pairwise(bounds)]
+
+
+@contextmanager
+def held(module: nn.Module) -> Iterator[None]:
+    """Let gradients pass through a module, and spare those of its own parameters."""
+    module.requires_grad_(False)
+    try:
+        yield
+    finally:
+        module.requires_grad_(True)
 
 
 def descend(

@@ -12,6 +12,9 @@ from itertools import pairwise
 import torch
 from torch import Tensor, nn
 
+from sldr_core.nets.fused import read_out, rectified
+from sldr_core.nets.precision import fuses
+
 
 class Mlp(nn.Module):
     """Map `[..., inputs]` to `[..., outputs]` through hidden layers with ReLU (paper §6.1)."""
@@ -34,11 +37,13 @@ class Mlp(nn.Module):
 
     def forward(self, x: Tensor) -> Tensor:
         """Return `[..., outputs]`."""
-        last = len(self.weights) - 1
-        for layer, (weight, bias) in enumerate(zip(self.weights, self.biases, strict=True)):
-            x = nn.functional.linear(x, weight, bias)
-            if layer < last:
-                x = x.relu_()
+        *hidden, (last_weight, last_bias) = zip(self.weights, self.biases, strict=True)
+        if fuses(x.device):
+            x = rectified(x, hidden)
+        else:
+            for weight, bias in hidden:
+                x = nn.functional.linear(x, weight, bias).relu_()
+        x = nn.functional.linear(x, last_weight, last_bias)
         return x.tanh() if self._squash else x
 
 
@@ -60,12 +65,20 @@ class MlpStack(nn.Module):
 
     def forward(self, x: Tensor) -> Tensor:
         """Return `[S, B, outputs]` of `[B, inputs]`."""
+        if fuses(x.device):
+            return torch.stack([self._fused(x, index) for index in range(self.count)])
         stacked = x.expand(self.count, *x.shape)
         *hidden, (last_weight, last_bias) = zip(self.weights, self.biases, strict=True)
         for weight, bias in hidden:
             stacked = torch.baddbmm(bias, stacked, weight).relu_()
         with torch.autocast(x.device.type, enabled=False):
             return torch.baddbmm(last_bias, stacked.to(last_weight.dtype), last_weight)
+
+    def _fused(self, x: Tensor, index: int) -> Tensor:
+        """Return what one network says, `[B, outputs]`."""
+        layers = [(weight[index].t(), bias[index, 0]) for weight, bias in zip(self.weights, self.biases, strict=True)]
+        *hidden, (last_weight, last_bias) = layers
+        return read_out(rectified(x, hidden), last_weight, last_bias)
 
 
 def _uniform(shape: tuple[int, ...], inputs: int, generator: torch.Generator) -> Tensor:

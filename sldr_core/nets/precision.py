@@ -1,5 +1,6 @@
 """The precision that a learner computes in: float32, or bfloat16 on any processor at a bearable speed.
 
+With instructions for bfloat16, layers are fused (`sldr_core.nets.fused`).
 Without instructions for bfloat16 torch multiplies such matrices one number at a time, an update of the paper's size
 taking twenty to forty times as long as in float32. There the products are made in float32 of the rounded numbers, and
 rounded: that is what the instructions do, up to the order in which numbers are added. So a config from a machine that
@@ -40,6 +41,11 @@ def learner_precision(device: torch.device, bfloat16: bool) -> Iterator[None]:
         ProductsInFloat32() if slow else nullcontext(),
     ):
         yield
+
+
+def fuses(device: torch.device) -> bool:
+    """Return whether networks on `device` are being computed in bfloat16 by a processor with instructions for it."""
+    return device.type == "cpu" and torch.is_autocast_enabled("cpu") and _has_instructions()
 
 
 class ProductsInFloat32(TorchDispatchMode):

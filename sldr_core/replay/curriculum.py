@@ -107,8 +107,8 @@ class CurriculumSampler:
 
     def select(self, draw: Draw, update: int) -> Draw:
         """Return the kept candidates of a draw; each group's lie together."""
-        config, arrays = self._config, self._buffer.arrays
-        goal, achieved = drawn_goals(self._buffer, draw), arrays["achieved"][draw.episode, draw.step]
+        config = self._config
+        goal, achieved = drawn_goals(self._buffer, draw), self._buffer.at("achieved", draw.episode, draw.step)
         groups = len(goal) // config.candidates
         grouped = goal.reshape(groups, config.candidates, -1)
         way = self._gaps(goal[:, None], achieved[:, None]).reshape(groups, config.candidates)

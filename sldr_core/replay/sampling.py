@@ -125,7 +125,7 @@ class HindsightSampler:
         Where little moves, they are nearly all, as what lies still is at every goal that it will achieve.
         """
         candidates = self._draw(CANDIDATES * batch_size, 1.0)
-        achieved = self._buffer.arrays["achieved"][candidates.episode, candidates.step]
+        achieved = self._buffer.at("achieved", candidates.episode, candidates.step)
         met = self._success(achieved, drawn_goals(self._buffer, candidates))
         return candidates.choose(draw_split(self.rng, batch_size, split(~met), self._config.met_weight))
 
@@ -146,21 +146,20 @@ def build_hindsight(order: SamplerOrder) -> HindsightSampler:
 def drawn_goals(buffer: ReplayBuffer, draw: Draw) -> Floats:
     """Return the goals that a draw gives its transitions, `[B, G]`."""
     relabelled = (draw.goal_step > 0)[:, None]
-    later = buffer.arrays["achieved"][draw.episode, draw.goal_step]
-    return np.where(relabelled, later, buffer.arrays["goal"][draw.episode])
+    later = buffer.at("achieved", draw.episode, draw.goal_step)
+    return np.where(relabelled, later, buffer.arrays["goal"].take(draw.episode, axis=0))
 
 
 def read_sample(buffer: ReplayBuffer, draw: Draw, reward: Reward) -> Sample:
     """Read drawn transitions, each with the goal that its draw gives it and the reward under that goal."""
-    arrays = buffer.arrays
     episode, step = draw.episode, draw.step
     goal = drawn_goals(buffer, draw)
     known = ("obs", "achieved", "goal", "action", "moved")
     return Sample(
-        obs=arrays["obs"][episode, step],
-        next_obs=arrays["obs"][episode, step + 1],
+        obs=buffer.at("obs", episode, step),
+        next_obs=buffer.at("obs", episode, step + 1),
         goal=goal,
-        action=arrays["action"][episode, step],
-        reward=reward(arrays["achieved"][episode, step + 1], goal),
-        extra={name: array[episode, step] for name, array in arrays.items() if name not in known},
+        action=buffer.at("action", episode, step),
+        reward=reward(buffer.at("achieved", episode, step + 1), goal),
+        extra={name: buffer.at(name, episode, step) for name in buffer.arrays if name not in known},
     )

@@ -10,8 +10,9 @@ from small_training import TIMINGS, collected_parts, save_untrained_model, tiny_
 from torch import Tensor, nn
 
 from sldr_core.config import Phase
-from sldr_core.nets import descent
-from sldr_core.nets.descent import SLICE_ROWS, descend, slices_of
+from sldr_core.nets import descent, precision
+from sldr_core.nets.descent import SLICE_ROWS, descend, held, slices_of
+from sldr_core.nets.precision import learner_precision
 from sldr_core.training.cycle import learn
 
 CPU = torch.device("cpu")
@@ -32,6 +33,26 @@ def test_slices_cover_every_row_once_and_are_nearly_of_one_length(rows: int) -> 
 
 def test_a_gpu_is_given_the_whole_batch() -> None:
     assert slices_of(PAPER_BATCH, torch.device("cuda")) == [slice(0, PAPER_BATCH)]
+
+
+def test_a_processor_is_given_the_whole_batch_while_it_computes_in_bfloat16(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(precision, "_has_instructions", lambda: True)
+
+    with learner_precision(CPU, bfloat16=True):
+        assert slices_of(PAPER_BATCH, CPU) == [slice(0, PAPER_BATCH)]
+    with learner_precision(CPU, bfloat16=False):
+        assert len(slices_of(PAPER_BATCH, CPU)) == 4
+
+
+def test_gradients_pass_through_what_is_held() -> None:
+    learning, judging = nn.Linear(3, 2), nn.Linear(2, 1)
+
+    with held(judging):
+        value = judging(learning(torch.ones(3))).sum()
+    value.backward()
+
+    assert all(parameter.grad is not None for parameter in learning.parameters())
+    assert all(parameter.grad is None and parameter.requires_grad for parameter in judging.parameters())
 
 
 @pytest.mark.parametrize("slices", [[slice(0, ROWS)], UNEVEN])

@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 import torch
+from plain_layers import linear_and_rectify
 from small_training import assert_same_training, run, save_untrained_model, tiny_config
 from torch import Tensor
 from torch.utils._python_dispatch import TorchDispatchMode
@@ -17,7 +18,7 @@ from torch.utils._python_dispatch import TorchDispatchMode
 from sldr_core.agent import DdpgAgent, InverseLearner
 from sldr_core.agent.losses import actor_loss
 from sldr_core.config import AgentConfig, RndConfig, SldrConfig, TrainConfig, find_task
-from sldr_core.nets import precision
+from sldr_core.nets import fused, precision
 from sldr_core.nets.locomotion_model import load_locomotion_model
 from sldr_core.nets.mlp import Mlp, MlpStack
 from sldr_core.nets.precision import learner_precision
@@ -29,7 +30,7 @@ CPU = torch.device("cpu")
 PUSH = find_task("FetchPush")
 VIEW = view_of(PUSH, "manipulation")
 SMALL = AgentConfig(hidden_sizes=(16, 16), learning_rate=1e-2)
-PRODUCTS = ("mm", "addmm", "bmm", "baddbmm")
+PRODUCTS = ("mm", "addmm", "bmm", "baddbmm", "_linear_pointwise")
 SPACING = 2.0**-8
 """How far bfloat16 numbers lie apart at most, in parts of themselves; rounding errs by half of that at most."""
 
@@ -102,6 +103,8 @@ def test_without_instructions_every_product_is_made_in_float32(
 
 
 def test_with_instructions_products_stay_in_bfloat16(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    if not precision._has_instructions():
+        monkeypatch.setattr(fused, "_linear_and_rectify", linear_and_rectify)
     monkeypatch.setattr(precision, "_has_instructions", lambda: True)
 
     with Products() as products:

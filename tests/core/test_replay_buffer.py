@@ -52,6 +52,16 @@ def path(tmp_path: Path) -> Path:
     return tmp_path / "replay.bin"
 
 
+def test_steps_of_episodes_are_taken_from_where_they_lie(path: Path) -> None:
+    buffer = ReplayBuffer(path, SHAPES, capacity=10, slack=5)
+    buffer.store(episodes(0, 12))
+    slot, step = np.array([11, 0, 11, 7]), np.array([0, 3, 2, 3])
+
+    for name, offset in (("obs", 0.0), ("achieved", 0.25), ("action", 0.5), ("w", 0.75)):
+        taken = buffer.at(name, slot, step)
+        assert taken.tolist() == [[100.0 * s + t + offset] * SHAPES[name][1] for s, t in zip(slot, step, strict=True)]
+
+
 def test_what_is_stored_can_be_read(path: Path) -> None:
     buffer = ReplayBuffer(path, SHAPES, capacity=10, slack=5)
     given = episodes(0, 3)
