@@ -23,3 +23,9 @@ test('the wall time of weeks has ticks too', () => {
   const fortnight = 14 * 86_400;
   expect(xSteps('wall_seconds')?.some((step) => fortnight / step >= 2 && fortnight / step <= 4)).toBe(true);
 });
+
+test('ticks that lie an epoch or more apart lie on whole ones', () => {
+  const steps = xSteps('epoch') ?? [];
+  expect(steps.filter((step) => step >= 1).every(Number.isInteger)).toBe(true);
+  expect(steps.some((step) => 5000 / step >= 1 && 5000 / step <= 5)).toBe(true);
+});

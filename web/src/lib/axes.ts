@@ -16,9 +16,13 @@ const TIME_STEPS = [
   1, 5, 10, 30, 60, 120, 300, 600, 1800, 3600, 7200, 18_000, 36_000, 86_400, 172_800, 432_000, 864_000, 1_728_000,
 ];
 
+/** Ticks of epochs lie on whole ones, or on tenths between them: nothing happens at epoch 2.5. */
+const EPOCH_STEPS = [0.1, 0.2, 0.5, ...[1, 10, 100, 1000].flatMap((power) => [power, 2 * power, 5 * power])];
+
 /** Distances that ticks of an axis may have, where plain round numbers read badly. */
 export function xSteps(axis: Axis): readonly number[] | undefined {
-  return axis === 'wall_seconds' ? TIME_STEPS : undefined;
+  if (axis === 'wall_seconds') return TIME_STEPS;
+  return axis === 'epoch' ? EPOCH_STEPS : undefined;
 }
 
 /**

@@ -29,10 +29,15 @@ test('smoothing keeps the computed line, and means the same on every axis', () =
   expect(centreOf(stretched)?.centre).toEqual(smoothed?.centre);
 });
 
-test('the legend names what most curves are, then the others', () => {
-  expect(panelLegend(PANEL, COMPARISON.groups)).toBe(
-    '1 seed, each by itself: too few for a band; HER-Sparse+SLDR: median of 2 to 4 seeds, band: quartiles (25 to 75 %)',
-  );
+test('the legend tells what most curves are, then names the others', () => {
+  const few = '1 seed, each by itself: too few for a band';
+  const band = 'HER-Sparse+SLDR: median of 2 to 4 seeds, band: quartiles (25 to 75 %)';
+  const [her, ...others] = PANEL.curves;
+  expect(panelLegend({ ...PANEL, curves: her === undefined ? [] : [her] }, COMPARISON.groups)).toBe(few);
+  expect(panelLegend(PANEL, COMPARISON.groups)).toBe(`HER-Sparse: ${few}; ${band}`);
+
+  const more = { ...PANEL, curves: her === undefined ? [] : [her, { ...her, group: 'cher' }, ...others] };
+  expect(panelLegend(more, COMPARISON.groups)).toBe(`${few}; ${band}`);
 });
 
 test('the x axis begins at nothing, or at the first point where it is logarithmic', () => {

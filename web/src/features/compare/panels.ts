@@ -94,7 +94,7 @@ export function yExtent(curves: readonly Curve[], window: Range, isShare: boolea
   return [low >= 0 && low - margin < (high - low) * 0.5 ? 0 : low - margin, high + margin];
 }
 
-/** What a panel shows, in words: what most curves are, then those that are otherwise. */
+/** What a panel shows, in words: what most curves are, then those that are otherwise; all by name where no two are alike. */
 export function panelLegend(panel: Panel, groups: readonly Group[]): string {
   const labels = new Map(groups.map(({ key, label }) => [key, label]));
   const kinds = new Map<string, string[]>();
@@ -103,5 +103,7 @@ export function panelLegend(panel: Panel, groups: readonly Group[]): string {
   }
   const [most, ...others] = [...kinds].sort((one, other) => other[1].length - one[1].length);
   if (most === undefined) return '';
-  return [most[0], ...others.map(([legend, names]) => `${names.join(', ')}: ${legend}`)].join('; ');
+  const named = ([legend, names]: [string, string[]]) => `${names.join(', ')}: ${legend}`;
+  const isUsual = others.length === 0 || most[1].length > 1;
+  return [isUsual ? most[0] : named(most), ...others.map(named)].join('; ');
 }
