@@ -231,11 +231,12 @@ def test_each_run_tells_what_trained_it_and_names_nobody(
     listed = members_of(tmp_path / "again.zip")["study.json"].decode()
     told = {run["key"]: run["machine"] for run in json.loads(listed)["runs"]}
     assert told[trained] == f"{platform.machine()}, 16 cores, NVIDIA H200"
-    assert told[other] == ""
+    # By the worker that these runs came from.
+    assert told[other] == f"{platform.machine()}, 64 cores, H100"
     assert "a-name" not in listed
 
 
-def test_what_trained_a_run_is_known_where_it_was_imported(
+def test_what_trained_a_run_is_known_where_it_was_imported_and_wherever_it_goes_from_there(
     db: Database, settings: Settings, exported: Path, tmp_path: Path
 ) -> None:
     def name_the_first(listed: dict[str, Any]) -> None:
@@ -247,6 +248,9 @@ def test_what_trained_a_run_is_known_where_it_was_imported(
         hosts = [row.host for row in conn.execute(select(attempts))]
     assert imported.runs == len(hosts) == 5
     assert hosts.count("x86_64, 1 core, no GPU") == 1
+    pack_study(db, settings, imported.study_id, tmp_path / "again.zip")
+    packed = json.loads(members_of(tmp_path / "again.zip")["study.json"])
+    assert sorted(run["machine"] for run in packed["runs"]) == sorted(hosts)
 
 
 def test_a_study_of_which_nothing_has_succeeded_is_not_packed(db: Database, settings: Settings, tmp_path: Path) -> None:

@@ -9,6 +9,9 @@ from sqlalchemy import Connection, select
 
 from backend.store.tables import attempts, workers
 
+ELSEWHERE = "imported"
+"""Stands for the worker where a run came in a study file; its attempt's host is then what the file says of it."""
+
 
 def count_machines(conn: Connection, run_ids: Sequence[str]) -> str:
     """Return what all attempts of some runs were trained on."""
@@ -18,14 +21,20 @@ def count_machines(conn: Connection, run_ids: Sequence[str]) -> str:
 
 
 def find_machines(conn: Connection, run_ids: Sequence[str]) -> dict[str, str]:
-    """Return what the last attempt of each run was trained on, for those whose worker has said."""
+    """Return what the last attempt of each run was trained on, for those whose worker or study file has said."""
     found = conn.execute(
-        select(attempts.c.run_id, workers.c.cores, workers.c.gpu)
-        .join(workers, workers.c.id == attempts.c.worker_id)
-        .where(attempts.c.run_id.in_(run_ids), workers.c.cores > 0)
+        select(attempts.c.run_id, attempts.c.worker_id, attempts.c.host, workers.c.cores, workers.c.gpu)
+        .outerjoin(workers, workers.c.id == attempts.c.worker_id)
+        .where(attempts.c.run_id.in_(run_ids))
         .order_by(attempts.c.attempt)
     )
-    return {row.run_id: _in_words(row.cores, row.gpu) for row in found}
+    told: dict[str, str] = {}
+    for row in found:
+        if row.worker_id == ELSEWHERE:
+            told[row.run_id] = row.host or ""
+        elif row.cores:
+            told[row.run_id] = _in_words(row.cores, row.gpu)
+    return told
 
 
 def _in_words(cores: int, gpu: str | None) -> str:

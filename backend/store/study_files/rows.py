@@ -13,6 +13,7 @@ from backend.store.metrics import MetricPoint, store_points
 from backend.store.order import last_position
 from backend.store.states import Event, RunState, append_event
 from backend.store.studies.spec import LONGEST_NAME, LONGEST_NOTE, StudySpec, spec_to_dict
+from backend.store.study_files.machines import ELSEWHERE
 from backend.store.study_files.records import Curves, RunRecord, StudyFile
 from backend.store.tables import (
     attempts,
@@ -34,8 +35,6 @@ IMPORTED_TAG = "imported"
 """What runs are tagged with that came in a study file."""
 ATTEMPT = 1
 """All that was logged counts as one attempt: what was superseded is not in the file."""
-ELSEWHERE = "imported"
-"""Stands for the worker."""
 
 
 @dataclass(frozen=True)
