@@ -109,6 +109,7 @@ class Worker(Strict):
     slots: int
     running: list[WorkerRun]
     cores: int = Field(description="Cores that it may use; 0 if nobody knows.")
+    processor: str | None = Field(description="Model that these are of, if it says so.")
     gpu: str | None
     memory_total: int = Field(description="Memory of its machine, in bytes; 0 if nobody knows.")
     memory_used: int

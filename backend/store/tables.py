@@ -25,7 +25,7 @@ from sqlalchemy import (
 import backend.store.access.tables  # noqa: F401  # pyright: ignore[reportUnusedImport] - its tables are of the same metadata
 from backend.store.schema import ID_LENGTH, NAME_LENGTH, UtcDateTime, metadata
 
-SCHEMA_REVISION = "0011"
+SCHEMA_REVISION = "0012"
 """The migration that these tables correspond to."""
 
 AnyRow = Row[*tuple[Any, ...]]
@@ -230,6 +230,7 @@ workers = Table(
     Column("executor", String(ID_LENGTH), nullable=False, server_default="local"),
     Column("slots", Integer, nullable=False),
     Column("cores", Integer, nullable=False, server_default="0"),
+    Column("processor", String(NAME_LENGTH)),
     Column("gpu", String(NAME_LENGTH)),
     Column("memory_total", BigInteger, nullable=False, server_default="0"),
     Column("memory_used", BigInteger, nullable=False, server_default="0"),

@@ -25,6 +25,8 @@ class Machine:
 
     cores: int = 0
     """Cores that it may use; 0 if nobody knows."""
+    processor: str | None = None
+    """Model that these are of, if it says so."""
     gpu: str | None = None
     """Name of its GPU, if it has one."""
     memory_total: int = 0
@@ -50,6 +52,8 @@ class WorkerRow:
     """Their ids."""
     cores: int
     """Cores that it may use; 0 if nobody knows."""
+    processor: str | None
+    """Model that these are of, if it says so."""
     gpu: str | None
     """Name of its GPU, if it has one."""
     memory_total: int
@@ -133,6 +137,7 @@ def select_workers(conn: Connection) -> list[WorkerRow]:
             busy=len(running.get(row.id, ())),
             running=tuple(running.get(row.id, ())),
             cores=row.cores,
+            processor=row.processor,
             gpu=row.gpu,
             memory_total=row.memory_total,
             memory_used=row.memory_used,

@@ -87,12 +87,13 @@ def test_a_priority_that_does_not_exist_is_named(unused_service: Service, priori
 
 
 def test_workers_are_listed_with_what_they_have_and_do(service: Service):
-    machine = Machine(cores=16, gpu="H200", memory_total=32_000_000_000)
+    machine = Machine(cores=16, processor="EPYC", gpu="H200", memory_total=32_000_000_000)
     register_worker(service.database, "box-3", 4711, 2, machine)
     [run_id] = service.launch()
     service.claim()
     idle, busy = service.get("/api/workers")["workers"]
-    assert (idle["host"], idle["cores"], idle["gpu"], idle["running"]) == ("box-3", 16, "H200", [])
+    assert (idle["host"], idle["cores"], idle["processor"], idle["gpu"]) == ("box-3", 16, "EPYC", "H200")
+    assert idle["running"] == []
     assert busy["running"] == [{"id": run_id, "task": "FetchPush", "phase": "manipulation", "method": "her", "seed": 0}]
     assert (busy["slots"], busy["alive"], busy["draining"]) == (1, True, False)
 

@@ -59,6 +59,7 @@ def worker(name: str, slots: int, gpu: str | None = None) -> WorkerRow:
         running=(),
         cores=1,
         gpu=gpu,
+        processor=None,
         memory_total=0,
         memory_used=0,
         draining=False,

@@ -161,14 +161,14 @@ def test_a_session_needs_a_run(db: Database) -> None:
 
 
 def test_a_worker_shows_what_it_has_and_what_it_runs(db: Database) -> None:
-    machine = Machine(cores=16, gpu="H200", memory_total=128, executor="ray")
+    machine = Machine(cores=16, processor="EPYC", gpu="H200", memory_total=128, executor="ray")
     worker_id = register_worker(db, "here", 123, 4, machine)
     claims = [(queued_run(db), claim_next(db, worker_id))[1] for _ in range(2)]
     beat(db, worker_id, memory_used=64)
 
     (worker,) = list_workers(db)
 
-    assert (worker.cores, worker.gpu, worker.executor) == (16, "H200", "ray")
+    assert (worker.cores, worker.processor, worker.gpu, worker.executor) == (16, "EPYC", "H200", "ray")
     assert (worker.memory_total, worker.memory_used) == (128, 64)
     assert worker.running == tuple(claim.run_id for claim in claims)
     assert worker.busy == 2

@@ -222,7 +222,7 @@ def test_each_run_tells_what_trained_it_and_names_nobody(
 ) -> None:
     imported = import_study(db, settings, exported, "It")
     trained, other = (run.run_id for run in get_study(db, imported.study_id).cells[0].runs)
-    worker_id = register_worker(db, "a-name", 1, 1, Machine(cores=16, gpu="NVIDIA H200"))
+    worker_id = register_worker(db, "a-name", 1, 1, Machine(cores=16, processor="AMD EPYC", gpu="NVIDIA H200"))
     with db.write() as conn:
         conn.execute(update(attempts).where(attempts.c.run_id == trained).values(worker_id=worker_id, host="a-name"))
 
@@ -230,7 +230,7 @@ def test_each_run_tells_what_trained_it_and_names_nobody(
 
     listed = members_of(tmp_path / "again.zip")["study.json"].decode()
     told = {run["key"]: run["machine"] for run in json.loads(listed)["runs"]}
-    assert told[trained] == f"{platform.machine()}, 16 cores, NVIDIA H200"
+    assert told[trained] == f"{platform.machine()}, 16 cores of AMD EPYC, NVIDIA H200"
     # By the worker that these runs came from.
     assert told[other] == f"{platform.machine()}, 64 cores, H100"
     assert "a-name" not in listed

@@ -18,7 +18,7 @@ from backend.store.settings import Settings
 from worker import machine
 from worker.executors.endings import failure_of
 from worker.executors.local import LocalExecutor
-from worker.machine import Gpu, count_cores, describe_machine, find_gpus, memory_used, visible_gpus
+from worker.machine import Gpu, count_cores, describe_machine, find_gpus, memory_used, processor_model, visible_gpus
 
 LISTED = """\
 0, GPU-1f3a0000-aaaa, NVIDIA H200
@@ -69,6 +69,21 @@ def test_a_machine_knows_its_cores_and_memory() -> None:
 
     assert machine.cores == count_cores() >= 1
     assert 0 < memory_used() < machine.memory_total
+
+
+def test_the_kernel_names_the_processors() -> None:
+    listed = "processor\t: 0\nvendor_id\t: AuthenticAMD\nmodel name\t: AMD EPYC 7003: 64-Core\n\nprocessor\t: 1\n"
+
+    assert processor_model(listed) == "AMD EPYC 7003: 64-Core"
+
+
+@pytest.mark.parametrize(("told", "model"), [("arm", "arm"), ("", None)])
+def test_where_the_kernel_does_not_the_platform_may(
+    told: str, model: str | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("platform.processor", lambda: told)
+
+    assert processor_model("processor\t: 0\nBogoMIPS\t: 50.00\n") == model
 
 
 def test_attempts_are_spread_over_several_gpus(db: Database, settings: Settings) -> None:

@@ -43,6 +43,7 @@ def _worker(row: WorkerRow, trained: dict[str, RunRow]) -> Worker:
         slots=row.slots,
         running=[_worker_run(trained[run_id]) for run_id in row.running if run_id in trained],
         cores=row.cores,
+        processor=row.processor,
         gpu=row.gpu,
         memory_total=row.memory_total,
         memory_used=row.memory_used,

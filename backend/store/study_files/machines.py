@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from sqlalchemy import Connection, select
 
+from backend.store.study_files.records import LONGEST_MACHINE
 from backend.store.tables import attempts, workers
 
 ELSEWHERE = "imported"
@@ -23,7 +24,14 @@ def count_machines(conn: Connection, run_ids: Sequence[str]) -> str:
 def find_machines(conn: Connection, run_ids: Sequence[str]) -> dict[str, str]:
     """Return what the last attempt of each run was trained on, for those whose worker or study file has said."""
     found = conn.execute(
-        select(attempts.c.run_id, attempts.c.worker_id, attempts.c.host, workers.c.cores, workers.c.gpu)
+        select(
+            attempts.c.run_id,
+            attempts.c.worker_id,
+            attempts.c.host,
+            workers.c.cores,
+            workers.c.processor,
+            workers.c.gpu,
+        )
         .outerjoin(workers, workers.c.id == attempts.c.worker_id)
         .where(attempts.c.run_id.in_(run_ids))
         .order_by(attempts.c.attempt)
@@ -33,9 +41,10 @@ def find_machines(conn: Connection, run_ids: Sequence[str]) -> dict[str, str]:
         if row.worker_id == ELSEWHERE:
             told[row.run_id] = row.host or ""
         elif row.cores:
-            told[row.run_id] = _in_words(row.cores, row.gpu)
+            told[row.run_id] = _in_words(row.cores, row.processor, row.gpu)
     return told
 
 
-def _in_words(cores: int, gpu: str | None) -> str:
-    return f"{platform.machine()}, {cores} core{'s' if cores > 1 else ''}, {gpu or 'no GPU'}"
+def _in_words(cores: int, processor: str | None, gpu: str | None) -> str:
+    share = f"{cores} core{'s' if cores > 1 else ''}" + (f" of {processor}" if processor else "")
+    return f"{platform.machine()}, {share}, {gpu or 'no GPU'}"[:LONGEST_MACHINE]

@@ -25,6 +25,8 @@ MOST_EPISODES = 100
 MOST_EVENTS = 2000
 MOST_CYCLES = 100_000
 MOST_METRICS = 500
+LONGEST_MACHINE = 200
+"""Of what says what trained a run [characters]."""
 LARGEST_FILE = 128 * 2**20
 """Of one file of a run [bytes]."""
 
@@ -132,7 +134,7 @@ class RunRecord(Strict):
     started_at: Time | None
     ended_at: Time | None
     needs: Annotated[list[Key], Field(max_length=8)]
-    machine: Annotated[str, Field(max_length=200, pattern=r"^[^\x00-\x1f]*$")] = ""
+    machine: Annotated[str, Field(max_length=LONGEST_MACHINE, pattern=r"^[^\x00-\x1f]*$")] = ""
     """What trained it, if that is known."""
     place: Place | None
     progress: ProgressRecord | None

@@ -4411,6 +4411,11 @@ export interface components {
             memory_used: number;
             /** Pid */
             pid: number;
+            /**
+             * Processor
+             * @description Model that these are of, if it says so.
+             */
+            processor: string | null;
             /** Running */
             running: components["schemas"]["WorkerRun"][];
             /** Slots */

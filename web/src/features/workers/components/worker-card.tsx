@@ -13,7 +13,7 @@ import { useSetDraining } from '../api/set-draining';
 import classes from './worker-card.module.css';
 
 export function WorkerCard({ worker }: { worker: Worker }) {
-  const { host, pid, id, executor, slots, running, cores, gpu } = worker;
+  const { host, pid, id, executor, slots, running, cores, processor, gpu } = worker;
   return (
     <li className={`card ${classes.card}`} data-worker={id}>
       <div className={classes.head}>
@@ -28,7 +28,10 @@ export function WorkerCard({ worker }: { worker: Worker }) {
         <Fact name="Slots busy">
           {running.length} of {slots}
         </Fact>
-        <Fact name="Cores">{cores || NOTHING}</Fact>
+        <Fact name="Cores">
+          {cores || NOTHING}
+          {processor !== null && ` of ${processor}`}
+        </Fact>
         <Fact name="GPU">{gpu ?? 'none'}</Fact>
         <Fact name="Memory">
           <Memory worker={worker} />
