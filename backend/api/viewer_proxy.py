@@ -36,6 +36,9 @@ VISER_HOST = "127.0.0.1"
 ANSWER_TIMEOUT_S = 10.0
 """How long a 3D server may take to answer [s]."""
 
+ASK_AGAIN_S = 2
+"""After this a page that is not there yet is asked for again [s]."""
+
 TOUCH_INTERVAL_S = 5.0
 """How often an open view tells the store that somebody watches, and asks whether it may go on [s]."""
 
@@ -46,11 +49,12 @@ router = APIRouter(prefix="/viewer", include_in_schema=False)
 
 
 class NoView(Exception):
-    """Report that there is nothing to watch: status and one sentence for the user."""
+    """Report that there is nothing to watch: status, one sentence for the user, and whether that may pass by itself."""
 
-    def __init__(self, status: int, message: str) -> None:
+    def __init__(self, status: int, message: str, may_pass: bool = False) -> None:
         super().__init__(message)
         self.status = status
+        self.may_pass = may_pass
 
 
 def viser_client() -> httpx.Client:
@@ -138,10 +142,11 @@ def _open(service: Service, token: str) -> viewer_sessions.Session:
         raise NoView(404, "This 3D view no longer exists; open it again from its run's page.") from error
     if session.state != "ready" or session.port is None:
         sentences = {
-            "starting": "This 3D view is still starting; open it again in a moment.",
+            "starting": "This 3D view is still starting.",
             "failed": f"This 3D view failed: {session.message or 'the viewer gave no reason'}",
         }
-        raise NoView(404, sentences.get(session.state, "This 3D view has ended; open it again from its run's page."))
+        ended = "This 3D view has ended; open it again from its run's page."
+        raise NoView(404, sentences.get(session.state, ended), may_pass=session.state == "starting")
     viewer_sessions.touch(service.database, session.id)
     return session
 
@@ -224,11 +229,12 @@ async def _stay_open(service: Service, token: str, socket: WebSocket) -> None:
 
 def _unreachable(port: int) -> NoView:
     log.warning("the 3D server on port %d does not answer", port)
-    return NoView(502, "This 3D view does not answer; open it again from its run's page.")
+    # Where trainings have all cores, it may take longer to begin than anybody waits for an answer.
+    return NoView(502, "This 3D view does not answer just now; its machine may be busy.", may_pass=True)
 
 
 def _sorry(request: Request, error: NoView) -> Response:
-    """Answer a person with a small page, a program with `Problems`."""
+    """Answer a person with a small page, which looks again by itself if that may help, a program with `Problems`."""
     if "text/html" not in request.headers.get("accept", ""):
         return problem_answer(error.status, [problem(str(error))])
     page = (
@@ -236,4 +242,5 @@ def _sorry(request: Request, error: NoView) -> Response:
         '<meta name="color-scheme" content="light dark">'
         f'<body style="font: 1rem/1.5 system-ui; margin: 2rem"><p>{escape(str(error))}</p>'
     )
-    return HTMLResponse(page, status_code=error.status)
+    again = {"Refresh": str(ASK_AGAIN_S)} if error.may_pass else {}
+    return HTMLResponse(page, status_code=error.status, headers=again)

@@ -243,6 +243,18 @@ def test_a_server_that_died_is_said_not_to_answer(service: Service):
     assert "does not answer" in answer.json()["problems"][0]["message"]
 
 
+def test_a_page_that_may_yet_answer_is_asked_for_again_and_one_that_has_ended_is_not(service: Service):
+    with echo_server() as port:
+        view = open_session(service, port)
+    silent = service.client.get(view.url, headers=BROWSER)
+    service.client.delete(f"/api/viewer-sessions/{view.session_id}")
+    ended = service.client.get(view.url, headers=BROWSER)
+
+    assert (silent.status_code, silent.headers["refresh"]) == (502, "2")
+    assert "its machine may be busy" in silent.text
+    assert (ended.status_code, "refresh" in ended.headers) == (404, False)
+
+
 def test_viser_itself_is_reached_through_the_proxy(service: Service):
     server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
     server.scene.add_icosphere("/ball", radius=0.1)
