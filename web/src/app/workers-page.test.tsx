@@ -34,7 +34,8 @@ function openWorkers(...workers: Worker[]) {
 test('a worker shows what it has and leads to what it trains', async () => {
   openWorkers(WORKER);
   const list = within(await screen.findByRole('list', { name: 'Workers' }));
-  for (const text of ['box-3', '1 of 2', '16 of AMD EPYC 7003', 'H200', '8 GB of 32 GB']) expect(list.getByText(text)).toBeTruthy();
+  for (const text of ['box-3', '1 of 2', '16 of AMD EPYC 7003', 'H200', '8 GB of 32 GB'])
+    expect(list.getByText(text)).toBeTruthy();
   const link = list.getByRole('link', { name: 'FetchPush manipulation, her, seed 4' });
   expect(link.getAttribute('href')).toBe('/runs/run-1');
   expect(screen.getByText('1 alive · 1 of 2 slots busy')).toBeTruthy();
