@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import os
 import platform
 from collections.abc import Sequence
 from datetime import UTC, datetime
 from pathlib import Path
+
+from sldr_core.processor import processor_model
 
 END = "<!-- end of results -->"
 
@@ -50,14 +53,5 @@ def today() -> str:
 
 def describe_machine() -> str:
     """Return cores, processor and Python of this machine."""
-    lines = _cpu_lines()
-    model = next(
-        (line.partition(":")[2].strip() for line in lines if line.startswith("model name")), platform.machine()
-    )
-    cores = sum(line.startswith("processor") for line in lines)
-    return f"{cores} cores of {model}, Python {platform.python_version()}"
-
-
-def _cpu_lines() -> list[str]:
-    path = Path("/proc/cpuinfo")
-    return path.read_text().splitlines() if path.exists() else []
+    model = processor_model() or platform.machine()
+    return f"{os.cpu_count()} cores of {model}, Python {platform.python_version()}"

@@ -4,22 +4,20 @@ from __future__ import annotations
 
 import logging
 import os
-import platform
 import shutil
 import subprocess
 from dataclasses import dataclass
 from importlib.metadata import version
-from pathlib import Path
 
 import psutil
 
 from backend.store.workers import Machine
 from sldr_core.errors import SldrError
+from sldr_core.processor import processor_model
 
 QUERY = ("nvidia-smi", "--query-gpu=index,uuid,name", "--format=csv,noheader")
 QUERY_PATIENCE_S = 20.0
 """The driver may have to be loaded first [s]."""
-CPU_LIST = Path("/proc/cpuinfo")
 VISIBLE_VARIABLE = "CUDA_VISIBLE_DEVICES"
 """Which GPUs a process may use, by number or name; CUDA's own variable."""
 
@@ -44,20 +42,10 @@ def describe_machine(gpus: list[Gpu]) -> Machine:
     """Return what this machine has, with the GPUs that a worker may use."""
     return Machine(
         cores=count_cores(),
-        processor=processor_model(CPU_LIST.read_text() if CPU_LIST.is_file() else ""),
+        processor=processor_model(),
         gpu=_in_words(gpus),
         memory_total=psutil.virtual_memory().total,
     )
-
-
-def processor_model(listed: str) -> str | None:
-    """Return the model of the processors, if it is known.
-
-    Args:
-        listed: the kernel's list of them, where it has one.
-    """
-    named = [line.partition(":")[2].strip() for line in listed.splitlines() if line.startswith("model name")]
-    return next(iter(named), platform.processor()) or None
 
 
 def count_cores() -> int:

@@ -17,6 +17,7 @@ import torch
 
 from sldr_core.disk import hold_lock, write_atomically
 from sldr_core.nets.locomotion_model import LocomotionModel, Measured, load_locomotion_model
+from sldr_core.processor import processor_model
 from sldr_core.training.evaluation import evaluate
 from sldr_core.training.halving import halve
 from sldr_core.zoo.index import Measurement, Origin, ZooModel, checksum, name_of, read_zoo, write_zoo
@@ -61,8 +62,7 @@ def origin_here(preset: str, wall_s: float | None = None, machine: str = "") -> 
 
 def describe_machine() -> str:
     """Return what trains here, in a few words that name nobody."""
-    names = (line.partition(":")[2].strip() for line in _cpu_lines() if line.startswith("model name"))
-    processor = next(names, platform.machine())
+    processor = processor_model() or platform.machine()
     gpu = torch.cuda.get_device_name() if torch.cuda.is_available() else "no GPU"
     return f"{len(os.sched_getaffinity(0))} cores of {processor}, {gpu}"
 
@@ -92,8 +92,3 @@ def _versions() -> dict[str, str]:
         except PackageNotFoundError:
             continue
     return found
-
-
-def _cpu_lines() -> list[str]:
-    listed = Path("/proc/cpuinfo")
-    return listed.read_text().splitlines() if listed.is_file() else []

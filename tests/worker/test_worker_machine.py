@@ -15,10 +15,11 @@ from backend.store.database import Database
 from backend.store.outcomes import Failed, Lost
 from backend.store.queue import claim
 from backend.store.settings import Settings
+from sldr_core.processor import model_in
 from worker import machine
 from worker.executors.endings import failure_of
 from worker.executors.local import LocalExecutor
-from worker.machine import Gpu, count_cores, describe_machine, find_gpus, memory_used, processor_model, visible_gpus
+from worker.machine import Gpu, count_cores, describe_machine, find_gpus, memory_used, visible_gpus
 
 LISTED = """\
 0, GPU-1f3a0000-aaaa, NVIDIA H200
@@ -74,7 +75,7 @@ def test_a_machine_knows_its_cores_and_memory() -> None:
 def test_the_kernel_names_the_processors() -> None:
     listed = "processor\t: 0\nvendor_id\t: AuthenticAMD\nmodel name\t: AMD EPYC 7003: 64-Core\n\nprocessor\t: 1\n"
 
-    assert processor_model(listed) == "AMD EPYC 7003: 64-Core"
+    assert model_in(listed) == "AMD EPYC 7003: 64-Core"
 
 
 @pytest.mark.parametrize(("told", "model"), [("arm", "arm"), ("", None)])
@@ -83,7 +84,7 @@ def test_where_the_kernel_does_not_the_platform_may(
 ) -> None:
     monkeypatch.setattr("platform.processor", lambda: told)
 
-    assert processor_model("processor\t: 0\nBogoMIPS\t: 50.00\n") == model
+    assert model_in("processor\t: 0\nBogoMIPS\t: 50.00\n") == model
 
 
 def test_attempts_are_spread_over_several_gpus(db: Database, settings: Settings) -> None:
