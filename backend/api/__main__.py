@@ -27,6 +27,7 @@ def make_server(app: FastAPI, host: str, port: int) -> uvicorn.Server:
         app,
         host=host,
         port=port,
+        http="h11",  # httptools, which uvicorn prefers where it lies about, lets the head of a request grow for ever
         log_level="warning",
         log_config=None,  # its warnings go where all others of this process go
         ws_per_message_deflate=False,

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import socket
 from datetime import UTC, datetime, timedelta
 
+import httpx
 import pytest
 from guarded_api import Guarded
 from live_api import new_client
+from signed_in import PATIENCE_S
 from sqlalchemy import update
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
@@ -22,6 +25,9 @@ from backend.store.errors import StaleFence
 from backend.store.files import register_file
 from backend.store.launches import LaunchOrder, launch
 from backend.store.queue import claim
+
+LONG_HEAD = 64 * 2**20
+"""More than a connection holds on its way, so that it was taken if all of it went [bytes]."""
 
 EVIL = "http://evil.example"
 SCRIPT = "<script>alert(1)</script>"
@@ -183,6 +189,13 @@ def test_a_body_that_is_too_large_is_not_taken(api: Guarded, chunked: bool):
     assert answer.status_code == 413
     assert "larger" in answer.json()["problems"][0]["message"]
     assert api.newest("refused").deed.detail == "POST, answered 413"
+
+
+def test_a_head_without_an_end_is_cut_off(api: Guarded):
+    url = httpx.URL(api.address)
+    line = socket.create_connection((url.host, url.port), timeout=PATIENCE_S)
+    with line, pytest.raises(ConnectionError):
+        line.sendall(b"GET / HTTP/1.1\r\nHost: 127.0.0.1\r\nX: " + b"a" * LONG_HEAD)
 
 
 def test_scripts_in_names_and_notes_stay_text(api: Guarded, held: Claim):
