@@ -12,7 +12,7 @@ from backend.store.settings import Settings, load_settings
 from sldr_core.errors import InvalidConfig
 from worker.executors.local import LocalExecutor
 from worker.executors.ray_needs import CORES_OF_A_RUN
-from worker.machine import describe_machine, find_gpus
+from worker.machine import describe_machine, find_gpus, share_of_threads
 from worker.sentences import tell
 from worker.supervisor import Supervisor
 
@@ -49,9 +49,9 @@ def _parse() -> argparse.Namespace:
 
 
 def _work_here(options: argparse.Namespace, db: Database, settings: Settings) -> Supervisor:
-    gpus = find_gpus()
-    executor = LocalExecutor(settings, gpus=gpus)
-    return Supervisor(db, executor, 1 if options.slots is None else options.slots, machine=describe_machine(gpus))
+    gpus, slots = find_gpus(), 1 if options.slots is None else options.slots
+    executor = LocalExecutor(settings, gpus=gpus, threads=share_of_threads(max(1, slots)))
+    return Supervisor(db, executor, slots, machine=describe_machine(gpus))
 
 
 def _work_on_cluster(options: argparse.Namespace, db: Database, settings: Settings) -> Supervisor:

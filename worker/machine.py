@@ -13,7 +13,7 @@ import psutil
 
 from backend.store.workers import Machine
 from sldr_core.errors import SldrError
-from sldr_core.processor import processor_model
+from sldr_core.processor import count_cores, granted_threads, processor_model
 
 QUERY = ("nvidia-smi", "--query-gpu=index,uuid,name", "--format=csv,noheader")
 QUERY_PATIENCE_S = 20.0
@@ -48,9 +48,9 @@ def describe_machine(gpus: list[Gpu]) -> Machine:
     )
 
 
-def count_cores() -> int:
-    """Return how many cores this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+def share_of_threads(slots: int) -> int:
+    """Return how many threads a run gets of which so many run at once: more than cores would wait for each other."""
+    return max(1, granted_threads() // slots)
 
 
 def memory_used() -> int:

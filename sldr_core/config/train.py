@@ -118,7 +118,7 @@ class ComputeConfig:
     precision: Literal["float32", "bfloat16"] = "float32"
     """`bfloat16` runs the learner under autocast: faster where the processor has the instructions, slower elsewhere."""
     threads: Annotated[int, Field(ge=0)] = 0
-    """Threads for simulation and learner (0: one per available core)."""
+    """Threads for simulation and learner (0: one per available core, shared out between a worker's slots)."""
 
 
 @dataclass(frozen=True, config=_FROZEN)

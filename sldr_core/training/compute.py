@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass
 
 import torch
 
 from sldr_core.config import ComputeConfig
 from sldr_core.errors import InvalidConfig
+from sldr_core.processor import granted_threads
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ def resolve_compute(config: ComputeConfig, beside: bool = False) -> Compute:
     has_gpu = torch.cuda.is_available()
     if config.device == "cuda" and not has_gpu:
         raise InvalidConfig({"compute.device": "there is no GPU that torch can use; choose 'auto' or 'cpu'"})
-    threads = config.threads or len(os.sched_getaffinity(0))
+    threads = config.threads or granted_threads()
     device = torch.device("cuda" if has_gpu and config.device != "cpu" else "cpu")
     learning = _learning_threads(threads, device) if beside else threads
     torch.set_num_threads(learning)

@@ -18,9 +18,10 @@ from small_training import (
     tiny_config,
 )
 
-from sldr_core.config import TrainConfig
+from sldr_core.config import ComputeConfig, TrainConfig
 from sldr_core.errors import InvalidConfig
 from sldr_core.presets import make_config
+from sldr_core.processor import THREADS_VARIABLE
 from sldr_core.training import train
 from sldr_core.training.build import Parts, build_training
 from sldr_core.training.compute import resolve_compute
@@ -174,3 +175,17 @@ def test_the_two_share_the_threads(threads: int, learning: int, collecting: int)
 
     assert (compute.threads, compute.collecting_threads) == (threads, collecting)
     assert used == learning
+
+
+def test_a_training_that_names_no_number_takes_the_threads_that_its_process_is_granted(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setenv(THREADS_VARIABLE, "3")
+    before = torch.get_num_threads()
+    try:
+        compute = resolve_compute(ComputeConfig(device="cpu"))
+        used = torch.get_num_threads()
+    finally:
+        torch.set_num_threads(before)
+
+    assert compute.threads == used == 3

@@ -15,11 +15,11 @@ from backend.store.database import Database
 from backend.store.outcomes import Failed, Lost
 from backend.store.queue import claim
 from backend.store.settings import Settings
-from sldr_core.processor import model_in
+from sldr_core.processor import THREADS_VARIABLE, count_cores, granted_threads, model_in
 from worker import machine
 from worker.executors.endings import failure_of
 from worker.executors.local import LocalExecutor
-from worker.machine import Gpu, count_cores, describe_machine, find_gpus, memory_used, visible_gpus
+from worker.machine import Gpu, describe_machine, find_gpus, memory_used, share_of_threads, visible_gpus
 
 LISTED = """\
 0, GPU-1f3a0000-aaaa, NVIDIA H200
@@ -27,7 +27,8 @@ LISTED = """\
 2, GPU-3d5e0000-cccc, NVIDIA L4
 """
 
-SAY_GPU = "import os, sys; sys.stdin.readline(); print(os.environ.get('CUDA_VISIBLE_DEVICES'), flush=True); input()"
+SAY = "import os, sys; sys.stdin.readline(); print(os.environ.get('{}'), flush=True); input()"
+SAY_GPU, SAY_THREADS = SAY.format("CUDA_VISIBLE_DEVICES"), SAY.format(THREADS_VARIABLE)
 
 
 def test_every_gpu_is_used_unless_some_are_named() -> None:
@@ -119,6 +120,37 @@ def test_a_single_gpu_is_left_to_be_found(db: Database, settings: Settings, tmp_
     child.wait()
 
     assert log.read_text().strip() == "None"
+
+
+@pytest.mark.parametrize(
+    ("granted", "slots", "share"), [("4", 1, 4), ("4", 2, 2), ("5", 2, 2), ("2", 4, 1), ("3,2", 1, 3)]
+)
+def test_slots_share_the_threads(granted: str, slots: int, share: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(THREADS_VARIABLE, granted)
+
+    assert share_of_threads(slots) == share
+
+
+@pytest.mark.parametrize("told", [None, "", "0", "many"])
+def test_where_no_number_is_told_each_core_gets_a_thread(told: str | None, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv(THREADS_VARIABLE, raising=False)
+    if told is not None:
+        monkeypatch.setenv(THREADS_VARIABLE, told)
+
+    assert granted_threads() == count_cores()
+
+
+def test_an_attempt_is_told_its_share_of_the_threads(db: Database, settings: Settings) -> None:
+    queued_run(db)
+    claimed = claim(db, "worker-1")
+    assert claimed is not None
+    child = LocalExecutor(settings, [sys.executable, "-c", SAY_THREADS], threads=3).start(claimed)
+    log = settings.run_directory(claimed.run_id) / "log.txt"
+    wait_until(lambda: bool(log.read_text()))
+    child.kill()
+    child.wait()
+
+    assert log.read_text().strip() == "3"
 
 
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM, signal.SIGHUP])

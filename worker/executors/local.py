@@ -12,6 +12,7 @@ from contextlib import suppress
 from backend.store.claims import Claim, claim_to_json
 from backend.store.outcomes import Outcome
 from backend.store.settings import Settings
+from sldr_core.processor import THREADS_VARIABLE
 from worker.executors.endings import failure_of
 from worker.machine import VISIBLE_VARIABLE, Gpu
 
@@ -71,16 +72,24 @@ class LocalExecutor:
     Start them from the main thread only: a child ends with the thread that started it.
     """
 
-    def __init__(self, settings: Settings, command: Sequence[str] = CHILD_COMMAND, gpus: Sequence[Gpu] = ()) -> None:
+    def __init__(
+        self,
+        settings: Settings,
+        command: Sequence[str] = CHILD_COMMAND,
+        gpus: Sequence[Gpu] = (),
+        threads: int | None = None,
+    ) -> None:
         """Prepare for attempts.
 
         Args:
             command: what to start; tests have their own.
             gpus: where there are several, each attempt sees the one that the fewest others see.
+            threads: what an attempt takes that names no number itself; as many as it sees cores if None.
         """
         self._settings = settings
         self._command = list(command)
         self._gpus = [gpu.device for gpu in gpus]
+        self._share = {} if threads is None else {THREADS_VARIABLE: str(threads)}
         self._given: list[tuple[str, LocalChild]] = []
 
     def has_room(self) -> bool:
@@ -103,7 +112,7 @@ class LocalExecutor:
                 stdin=subprocess.PIPE,
                 stdout=log,
                 stderr=subprocess.STDOUT,
-                env={**os.environ, **self._settings.as_environment(), **choice},
+                env={**os.environ, **self._settings.as_environment(), **self._share, **choice},
                 process_group=0,
                 text=True,
             )
