@@ -3,6 +3,7 @@ import {
   formatAgo,
   formatCount,
   formatDuration,
+  formatEstimate,
   formatMoment,
   formatName,
   formatPlural,
@@ -24,6 +25,7 @@ test('what is missing is a dash everywhere', () => {
     formatShare,
     formatRate,
     formatDuration,
+    formatEstimate,
     formatAgo,
     formatUntil,
   ]) {
@@ -74,6 +76,20 @@ test.each([
   [-3, '0s'],
 ])('%d seconds take %s', (seconds, text) => {
   expect(formatDuration(seconds)).toBe(text);
+});
+
+test.each([
+  [7.4, '7s'],
+  [200, '3m 20s'],
+  [599.7, '10m'],
+  [2533, '42m'],
+  [3590, '1h'],
+  [26_530, '7h 22m'],
+  [48_200, '13h'],
+  [273_600, '3d 4h'],
+  [-3, '0s'],
+])('%d seconds take about %s', (seconds, text) => {
+  expect(formatEstimate(seconds)).toBe(text);
 });
 
 test.each([

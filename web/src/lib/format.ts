@@ -15,6 +15,9 @@ const UNITS = [
   { name: 's', size: 1 },
 ] as const;
 
+/** From so many of a unit on, an estimate tells nothing smaller. */
+const ESTIMATED = 10;
+
 /** Figures of a number that is written short. */
 const FIGURES = 3;
 
@@ -86,6 +89,13 @@ export function formatDuration(seconds: Maybe, step = DAY): string {
   return parts.filter(Boolean).join(' ');
 }
 
+/** A span that is only guessed, without what nobody can know: `3m 20s`, `42m`, `7h 22m`, `13h`. */
+export function formatEstimate(seconds: Maybe): string {
+  if (!isNumber(seconds)) return NOTHING;
+  const told = UNITS.find(({ size }) => seconds >= ESTIMATED * size)?.size ?? 1;
+  return formatDuration(Math.round(seconds / told) * told);
+}
+
 /** How long ago a moment was: `just now`, `12 s ago`, `3 h ago`. */
 export function formatAgo(seconds: Maybe): string {
   if (!isNumber(seconds)) return NOTHING;
@@ -97,10 +107,10 @@ export function formatAgo(seconds: Maybe): string {
   return `${Math.floor(whole / DAY)} d ago`;
 }
 
-/** How long until a moment: `now`, `in 12s`, `in 2h 5m`. */
+/** About how long until a moment: `now`, `in 12s`, `in 42m`, `in 2h 5m`. */
 export function formatUntil(seconds: Maybe): string {
   if (!isNumber(seconds)) return NOTHING;
-  return seconds < 1 ? 'now' : `in ${formatDuration(seconds)}`;
+  return seconds < 1 ? 'now' : `in ${formatEstimate(seconds)}`;
 }
 
 /** A moment as local date and time, to the second: `2026-11-22 17:04:09`. */

@@ -20,7 +20,7 @@ const COLUMNS = {
   preset: { name: 'Preset', width: 60, isSortable: true },
   changes: { name: 'Changes', width: 150, help: 'Settings in which it is not as its preset' },
   tags: { name: 'Tags', width: 72, help: 'What people call it; a click narrows the table to a tag' },
-  progress: { name: 'Progress', width: 104, isSortable: true, isLargestFirst: true, help: 'Epoch it is in, of all' },
+  progress: { name: 'Progress', width: 98, isSortable: true, isLargestFirst: true, help: 'Epoch it is in, of all' },
   success: {
     name: 'Success',
     width: 104,
@@ -37,7 +37,7 @@ const COLUMNS = {
     isLargestFirst: true,
     help: 'Environment steps per second, and gradient updates per second',
   },
-  left: { name: 'Left', help: 'Time it will still take', width: 54, isNumber: true, isSortable: true },
+  left: { name: 'Left', help: 'Time it will still take', width: 60, isNumber: true, isSortable: true },
   duration: { name: 'Duration', width: 68, isNumber: true, isSortable: true, isLargestFirst: true },
   launched: { name: 'Launched', width: 94, isNumber: true, isSortable: true, isLargestFirst: true },
 } satisfies Record<string, Column>;

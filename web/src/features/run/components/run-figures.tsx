@@ -3,7 +3,7 @@ import type { ReactNode } from 'react';
 import type { RunDetail } from '@/client/schema.gen';
 import { Elapsed } from '@/components/elapsed';
 import { RunProgress } from '@/components/run-progress';
-import { formatCount, formatDuration, formatMoment, formatRate, formatShare, NOTHING } from '@/lib/format';
+import { formatCount, formatEstimate, formatMoment, formatRate, formatShare, NOTHING } from '@/lib/format';
 import classes from './run.module.css';
 
 export function RunFigures({ run }: { run: RunDetail }) {
@@ -21,7 +21,7 @@ export function RunFigures({ run }: { run: RunDetail }) {
       <Figure name="Env steps">{formatCount(progress?.env_steps)}</Figure>
       <Figure name="Env steps/s">{isRunning ? formatRate(progress?.env_steps_per_s) : NOTHING}</Figure>
       <Figure name="Updates/s">{isRunning ? formatRate(progress?.updates_per_s) : NOTHING}</Figure>
-      <Figure name="Time left">{isRunning ? formatDuration(progress?.seconds_left) : NOTHING}</Figure>
+      <Figure name="Time left">{isRunning ? formatEstimate(progress?.seconds_left) : NOTHING}</Figure>
       <Figure name="Duration">
         <span title={run.started_at ? `Started ${formatMoment(run.started_at)}` : undefined}>
           <Elapsed run={run} />

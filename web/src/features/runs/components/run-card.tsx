@@ -6,7 +6,7 @@ import { RunProgress } from '@/components/run-progress';
 import { RunThumbnail } from '@/components/run-thumbnail';
 import { StateBadge } from '@/components/state-badge';
 import { TagChips } from '@/components/tag-chips';
-import { formatDuration } from '@/lib/format';
+import { formatEstimate } from '@/lib/format';
 import { runTitle } from '@/lib/run-title';
 import { wishOf } from '@/lib/states';
 import type { Line, Lines } from '../lines';
@@ -57,7 +57,7 @@ export function RunCard({ line, metrics, isSelected, findRun, onTag, box }: Prop
             <Figure name="Steps / updates per s">
               <Speed run={run} />
             </Figure>
-            <Figure name="Left">{formatDuration(run.progress?.seconds_left)}</Figure>
+            <Figure name="Left">{formatEstimate(run.progress?.seconds_left)}</Figure>
           </>
         )}
         {run.started_at && (

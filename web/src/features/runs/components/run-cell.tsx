@@ -6,7 +6,7 @@ import { RunProgress } from '@/components/run-progress';
 import { RunThumbnail } from '@/components/run-thumbnail';
 import { StateBadge } from '@/components/state-badge';
 import { TagChips } from '@/components/tag-chips';
-import { formatDuration, NOTHING } from '@/lib/format';
+import { formatEstimate, NOTHING } from '@/lib/format';
 import { runTitle } from '@/lib/run-title';
 import { wishOf } from '@/lib/states';
 import { BUILT_INS, type BuiltIn } from '../columns';
@@ -64,7 +64,7 @@ function contentOf(column: Exclude<BuiltIn, 'task'>, run: RunSummary, onTag: Pro
     case 'speed':
       return <Speed run={run} />;
     case 'left':
-      return run.state === 'running' ? formatDuration(run.progress?.seconds_left) : NOTHING;
+      return run.state === 'running' ? formatEstimate(run.progress?.seconds_left) : NOTHING;
     case 'duration':
       return <Elapsed run={run} />;
     case 'launched':
