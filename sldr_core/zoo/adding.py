@@ -5,7 +5,6 @@ Weights are kept in half precision and loaded as float32, so what is measured is
 
 from __future__ import annotations
 
-import os
 import platform
 from dataclasses import replace
 from functools import partial
@@ -17,7 +16,7 @@ import torch
 
 from sldr_core.disk import hold_lock, write_atomically
 from sldr_core.nets.locomotion_model import LocomotionModel, Measured, load_locomotion_model
-from sldr_core.processor import processor_model
+from sldr_core.processor import count_cores, processor_model
 from sldr_core.training.evaluation import evaluate
 from sldr_core.training.halving import halve
 from sldr_core.zoo.index import Measurement, Origin, ZooModel, checksum, name_of, read_zoo, write_zoo
@@ -64,7 +63,7 @@ def describe_machine() -> str:
     """Return what trains here, in a few words that name nobody."""
     processor = processor_model() or platform.machine()
     gpu = torch.cuda.get_device_name() if torch.cuda.is_available() else "no GPU"
-    return f"{len(os.sched_getaffinity(0))} cores of {processor}, {gpu}"
+    return f"{count_cores()} cores of {processor}, {gpu}"
 
 
 def _measure(model: LocomotionModel, source: Path, episodes: int) -> Measurement:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import statistics
 from collections.abc import Iterator
 from functools import partial
@@ -13,6 +12,7 @@ from bench_rows import REPETITIONS, Measured, Stopwatch, Target, row, seconds_of
 
 from sldr_core.config import Robot
 from sldr_core.envs import Envs, make_envs
+from sldr_core.processor import count_cores
 
 SIMULATIONS = 38
 """As many as a cycle of the paper collects."""
@@ -62,7 +62,7 @@ def _without_robot(task: str) -> Measured:
 
 
 def _against_gymnasium(task: str, peer_id: str) -> Measured:
-    envs = make_envs(task, num_envs=SIMULATIONS, seed=0, threads=_cores())
+    envs = make_envs(task, num_envs=SIMULATIONS, seed=0, threads=count_cores())
     # Forked workers would inherit the threads of our simulations as objects without threads, and crash ending them.
     peer = gym.vector.AsyncVectorEnv(
         [partial(gym.make, f"gymnasium_robotics:{peer_id}")] * PEER_WORKERS, context="spawn"
@@ -92,7 +92,7 @@ def _against_gymnasium(task: str, peer_id: str) -> Measured:
 
 def _against_physics(task: str) -> Measured:
     """Measure which share of collecting is mjbatch's stepping, in the same episodes."""
-    envs = make_envs(task, num_envs=SIMULATIONS, seed=0, threads=_cores())
+    envs = make_envs(task, num_envs=SIMULATIONS, seed=0, threads=count_cores())
     stepping, bringing = Stopwatch(), Stopwatch()
     envs.simulation.step = stepping.around(envs.simulation.step)
     envs.simulation.forward_motion = bringing.around(envs.simulation.forward_motion)
@@ -133,8 +133,4 @@ def _run_steps(envs: Envs) -> None:
 
 
 def _locomotion_envs(task: str, robot: Robot) -> Envs:
-    return make_envs(task, "locomotion", num_envs=SIMULATIONS, seed=0, threads=_cores(), robot=robot)
-
-
-def _cores() -> int:
-    return len(os.sched_getaffinity(0))
+    return make_envs(task, "locomotion", num_envs=SIMULATIONS, seed=0, threads=count_cores(), robot=robot)

@@ -11,6 +11,7 @@ import pytest
 from other_processes import wait_until
 from worker_cases import queued_run
 
+from backend.store.claims import Claim
 from backend.store.database import Database
 from backend.store.outcomes import Failed, Lost
 from backend.store.queue import claim
@@ -29,6 +30,16 @@ LISTED = """\
 
 SAY = "import os, sys; sys.stdin.readline(); print(os.environ.get('{}'), flush=True); input()"
 SAY_GPU, SAY_THREADS = SAY.format("CUDA_VISIBLE_DEVICES"), SAY.format(THREADS_VARIABLE)
+
+
+def first_word(settings: Settings, claimed: Claim, executor: LocalExecutor) -> str:
+    """Return what an attempt prints first, and end it."""
+    child = executor.start(claimed)
+    log = settings.run_directory(claimed.run_id) / "log.txt"
+    wait_until(lambda: bool(log.read_text()))
+    child.kill()
+    child.wait()
+    return log.read_text().strip()
 
 
 def test_every_gpu_is_used_unless_some_are_named() -> None:
@@ -113,13 +124,9 @@ def test_a_single_gpu_is_left_to_be_found(db: Database, settings: Settings, tmp_
     queued_run(db)
     claimed = claim(db, "worker-1")
     assert claimed is not None
-    child = LocalExecutor(settings, [sys.executable, "-c", SAY_GPU], [Gpu("0", "H200")]).start(claimed)
-    log = settings.run_directory(claimed.run_id) / "log.txt"
-    wait_until(lambda: bool(log.read_text()))
-    child.kill()
-    child.wait()
+    executor = LocalExecutor(settings, [sys.executable, "-c", SAY_GPU], [Gpu("0", "H200")])
 
-    assert log.read_text().strip() == "None"
+    assert first_word(settings, claimed, executor) == "None"
 
 
 @pytest.mark.parametrize(
@@ -144,13 +151,9 @@ def test_an_attempt_is_told_its_share_of_the_threads(db: Database, settings: Set
     queued_run(db)
     claimed = claim(db, "worker-1")
     assert claimed is not None
-    child = LocalExecutor(settings, [sys.executable, "-c", SAY_THREADS], threads=3).start(claimed)
-    log = settings.run_directory(claimed.run_id) / "log.txt"
-    wait_until(lambda: bool(log.read_text()))
-    child.kill()
-    child.wait()
+    executor = LocalExecutor(settings, [sys.executable, "-c", SAY_THREADS], threads=3)
 
-    assert log.read_text().strip() == "3"
+    assert first_word(settings, claimed, executor) == "3"
 
 
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM, signal.SIGHUP])
