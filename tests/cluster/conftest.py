@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
 import sys
@@ -15,6 +16,7 @@ from fake_attempts import fake_command
 from other_processes import PATIENCE_S
 
 from backend.store.settings import Settings
+from sldr_core.processor import THREADS_VARIABLE
 from worker.executors.local import LocalExecutor
 from worker.executors.ray_access import cluster_environment, connect, make_token
 
@@ -28,6 +30,8 @@ QUICK_TO_NOTICE = {
 """A node that is killed is missed after some 2 s; a cluster that is not told so takes some 15 s."""
 MOST_STARTS = 3
 PATIENT_AT_START = {"RAY_agent_register_timeout_ms": "120000", "RAY_worker_register_timeout_seconds": "120"}
+SET_BY_SOMEBODY = {THREADS_VARIABLE: "7"}
+"""A number that is in the environment of every node, and no attempt's."""
 
 
 @pytest.fixture(scope="session")
@@ -57,6 +61,7 @@ def start_cluster(home: Path) -> Cluster:
                 stdout=subprocess.PIPE,
                 stderr=log,
                 text=True,
+                env={**os.environ, **SET_BY_SOMEBODY},
             )
         try:
             return Cluster(home, process)

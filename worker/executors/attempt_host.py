@@ -73,7 +73,8 @@ class AttemptHost:
         if not held.gpus:
             # Ray leaves the variable alone then, and the attempt would take a GPU that others count on.
             os.environ[VISIBLE_VARIABLE] = ""
-        self._child = LocalExecutor(settings, terms.command or CHILD_COMMAND).start(claim)
+        command = terms.command or CHILD_COMMAND
+        self._child = LocalExecutor(settings, command, threads=held.cores).start(claim)
         return Placement(socket.gethostname(), self._child.pid)
 
     def tell(self, message: str) -> None:
