@@ -75,7 +75,7 @@ def _parse() -> argparse.Namespace:
     parser.add_argument("--json", type=Path, default=NUMBERS, help="where the numbers go")
     hours = PEER_CAP_S / 3600.0
     parser.add_argument("--peer-hours", type=float, default=hours, help="how long a robot's peer may train")
-    parser.add_argument("--keep-peer", action="store_true", help="take that peer's result from an earlier time here")
+    parser.add_argument("--keep-peer", action="store_true", help="go on from that peer's earlier time here")
     parser.add_argument("--home", type=Path, help="data directory whose finished runs `quality` reads")
     return parser.parse_args()
 

@@ -1,6 +1,7 @@
 """What a researcher would otherwise train with: Stable-Baselines3's SAC with hindsight, on gymnasium-robotics' task.
 
-It takes hours, so each result is kept in a file with its curve, as far as it came, and can be taken from there.
+It takes hours, so each result is kept in a file with its curve, as far as it came, and can be taken from there; and
+what it has learnt and seen is saved, so that another time it can be given more hours.
 """
 
 from __future__ import annotations
@@ -19,6 +20,9 @@ from measured_page import describe_machine
 
 KEPT = Path("docs/performance-peers.json")
 """Results by task and machine."""
+
+SAVED = Path("build/peers")
+"""A directory for each task, with the peer as its time was over."""
 
 TESTED_EVERY = 5_000
 """Control steps between two tests."""
@@ -57,6 +61,8 @@ class PeerCurve:
     """Share of test episodes that end at the goal."""
     is_over: bool = False
     """It has learnt, or has had its time; else it was interrupted."""
+    spent_s: float = 0.0
+    """Wall time until it was saved [s]."""
 
     def seconds_to(self, rate: float) -> float:
         """Return when a test first reached a success rate [s]; infinity if none did."""
@@ -73,12 +79,23 @@ class PeerCurve:
 
 
 def train_peer(task: str, env_id: str, rate: float, cap_s: float, take_kept: bool) -> PeerCurve:
-    """Train until a test reaches `rate`, or for `cap_s` [s]; or return what was kept from an earlier time here."""
+    """Train until a test reaches `rate`, or for `cap_s` [s].
+
+    Args:
+        task: what is to be learnt.
+        env_id: the same task of gymnasium-robotics.
+        rate: test success that counts.
+        cap_s: how long it may take, all times together [s].
+        take_kept: whether what was kept here from an earlier time is taken; it goes on from there if that was shorter.
+    """
     key = f"{task} on {describe_machine()}"
+    curve = PeerCurve(task, describe_machine(), cap_s)
     kept = _read_kept().get(key)
     if take_kept and kept is not None and kept["is_over"]:
-        return PeerCurve(**kept)
-    curve = PeerCurve(task, describe_machine(), cap_s)
+        curve = PeerCurve(**kept)
+        if curve.seconds_to(rate) < float("inf") or curve.cap_s >= cap_s:
+            return curve
+        curve.cap_s, curve.is_over = cap_s, False
     _train(env_id, rate, curve, lambda: _keep(key, curve))
     curve.is_over = True
     _keep(key, curve)
@@ -86,6 +103,7 @@ def train_peer(task: str, env_id: str, rate: float, cap_s: float, take_kept: boo
 
 
 def _train(env_id: str, rate: float, curve: PeerCurve, keep: Callable[[], None]) -> None:
+    """Train from nothing, or from where it was saved if it has spent time before."""
     import gymnasium as gym
     import gymnasium_robotics
     from stable_baselines3 import SAC, HerReplayBuffer
@@ -94,8 +112,8 @@ def _train(env_id: str, rate: float, curve: PeerCurve, keep: Callable[[], None])
     gym.register_envs(gymnasium_robotics)
     threads_before = torch.get_num_threads()
     torch.set_num_threads(THREADS)
-    begun = time.perf_counter()
     env, test_env = gym.make(env_id), gym.make(env_id)
+    saved = SAVED / curve.task
 
     class Tests(BaseCallback):
         """Test now and then, and end the training once it has learnt or had its time."""
@@ -111,8 +129,16 @@ def _train(env_id: str, rate: float, curve: PeerCurve, keep: Callable[[], None])
             return time.perf_counter() - begun < curve.cap_s
 
     try:
-        model = SAC("MultiInputPolicy", env, replay_buffer_class=HerReplayBuffer, seed=0, device="cpu", **SETTINGS)
-        model.learn(total_timesteps=10**9, callback=Tests())
+        if curve.spent_s:
+            model = SAC.load(saved / "model.zip", env, device="cpu")
+            model.load_replay_buffer(saved / "replay.pkl")
+        else:
+            model = SAC("MultiInputPolicy", env, replay_buffer_class=HerReplayBuffer, seed=0, device="cpu", **SETTINGS)
+        begun = time.perf_counter() - curve.spent_s
+        model.learn(total_timesteps=10**9, callback=Tests(), reset_num_timesteps=not curve.spent_s)
+        curve.spent_s = time.perf_counter() - begun
+        model.save(saved / "model.zip")
+        model.save_replay_buffer(saved / "replay.pkl")
     finally:
         torch.set_num_threads(threads_before)
         env.close()

@@ -84,20 +84,37 @@ def test_a_peer_that_has_not_learnt_counts_with_all_its_time() -> None:
     assert _curve().told(0.9) == "the peer was not tested within 10 min"
 
 
-def test_a_kept_peer_is_trained_again_unless_it_is_asked_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    trained: list[str] = []
+@pytest.fixture
+def sittings(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[tuple[float, float]]:
+    """Let peers come to 50 % in no time; return what each had spent before and may spend."""
+    trained: list[tuple[float, float]] = []
 
-    def train(env_id: str, rate: float, curve: PeerCurve, keep: object) -> None:
-        trained.append(env_id)
-        curve.success.append(rate)
+    def train(_env_id: str, _rate: float, curve: PeerCurve, _keep: object) -> None:
+        trained.append((curve.spent_s, curve.cap_s))
+        curve.steps.append(5_000)
+        curve.seconds.append(curve.cap_s - 1.0)
+        curve.success.append(0.5)
+        curve.spent_s = curve.cap_s
 
     monkeypatch.setattr(sac_peer, "KEPT", tmp_path / "build" / "peers.json")
     monkeypatch.setattr(sac_peer, "_train", train)
+    return trained
+
+
+def test_a_kept_peer_is_trained_again_unless_it_is_asked_for(sittings: list[tuple[float, float]]) -> None:
     first = sac_peer.train_peer("FetchPush", "FetchPush-v4", 0.9, 60.0, take_kept=True)
     assert sac_peer.train_peer("FetchPush", "FetchPush-v4", 0.9, 60.0, take_kept=True) == first
-    assert trained == ["FetchPush-v4"]
+    assert sittings == [(0.0, 60.0)]
     sac_peer.train_peer("FetchPush", "FetchPush-v4", 0.9, 60.0, take_kept=False)
-    assert len(trained) == 2
+    assert sittings == [(0.0, 60.0), (0.0, 60.0)]
+
+
+def test_a_kept_peer_goes_on_if_it_may_take_longer_now(sittings: list[tuple[float, float]]) -> None:
+    sac_peer.train_peer("FetchPush", "FetchPush-v4", 0.9, 60.0, take_kept=True)
+    longer = sac_peer.train_peer("FetchPush", "FetchPush-v4", 0.9, 100.0, take_kept=True)
+    assert sittings == [(0.0, 60.0), (60.0, 100.0)]
+    assert (longer.cap_s, longer.seconds, longer.is_over) == (100.0, [59.0, 99.0], True)
+    assert sac_peer.train_peer("FetchPush", "FetchPush-v4", 0.5, 200.0, take_kept=True) == longer
 
 
 def test_an_epoch_tells_where_the_rest_of_it_goes() -> None:
