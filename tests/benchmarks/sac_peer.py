@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Callable
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +23,8 @@ KEPT = Path("docs/performance-peers.json")
 
 SAVED = Path("build/peers")
 """A directory for each task, with the peer as its time was over."""
+
+MODEL, REPLAY = "model.zip", "replay.pkl"
 
 TESTED_EVERY = 5_000
 """Control steps between two tests."""
@@ -86,16 +88,18 @@ def train_peer(task: str, env_id: str, rate: float, cap_s: float, take_kept: boo
         env_id: the same task of gymnasium-robotics.
         rate: test success that counts.
         cap_s: how long it may take, all times together [s].
-        take_kept: whether what was kept here from an earlier time is taken; it goes on from there if that was shorter.
+        take_kept: whether what was kept here from an earlier time is taken; if that was shorter, it goes on from there,
+            or anew where it was not saved.
     """
     key = f"{task} on {describe_machine()}"
     curve = PeerCurve(task, describe_machine(), cap_s)
     kept = _read_kept().get(key)
     if take_kept and kept is not None and kept["is_over"]:
-        curve = PeerCurve(**kept)
-        if curve.seconds_to(rate) < float("inf") or curve.cap_s >= cap_s:
-            return curve
-        curve.cap_s, curve.is_over = cap_s, False
+        earlier = PeerCurve(**kept)
+        if earlier.seconds_to(rate) < float("inf") or earlier.cap_s >= cap_s:
+            return earlier
+        if (SAVED / task / REPLAY).exists():
+            curve = replace(earlier, cap_s=cap_s, is_over=False)
     _train(env_id, rate, curve, lambda: _keep(key, curve))
     curve.is_over = True
     _keep(key, curve)
@@ -130,15 +134,15 @@ def _train(env_id: str, rate: float, curve: PeerCurve, keep: Callable[[], None])
 
     try:
         if curve.spent_s:
-            model = SAC.load(saved / "model.zip", env, device="cpu")
-            model.load_replay_buffer(saved / "replay.pkl")
+            model = SAC.load(saved / MODEL, env, device="cpu")
+            model.load_replay_buffer(saved / REPLAY)
         else:
             model = SAC("MultiInputPolicy", env, replay_buffer_class=HerReplayBuffer, seed=0, device="cpu", **SETTINGS)
         begun = time.perf_counter() - curve.spent_s
         model.learn(total_timesteps=10**9, callback=Tests(), reset_num_timesteps=not curve.spent_s)
         curve.spent_s = time.perf_counter() - begun
-        model.save(saved / "model.zip")
-        model.save_replay_buffer(saved / "replay.pkl")
+        model.save(saved / MODEL)
+        model.save_replay_buffer(saved / REPLAY)
     finally:
         torch.set_num_threads(threads_before)
         env.close()

@@ -95,8 +95,11 @@ def sittings(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[tuple[floa
         curve.seconds.append(curve.cap_s - 1.0)
         curve.success.append(0.5)
         curve.spent_s = curve.cap_s
+        (tmp_path / "FetchPush").mkdir(exist_ok=True)
+        (tmp_path / "FetchPush" / sac_peer.REPLAY).touch()
 
     monkeypatch.setattr(sac_peer, "KEPT", tmp_path / "build" / "peers.json")
+    monkeypatch.setattr(sac_peer, "SAVED", tmp_path)
     monkeypatch.setattr(sac_peer, "_train", train)
     return trained
 
@@ -115,6 +118,13 @@ def test_a_kept_peer_goes_on_if_it_may_take_longer_now(sittings: list[tuple[floa
     assert sittings == [(0.0, 60.0), (60.0, 100.0)]
     assert (longer.cap_s, longer.seconds, longer.is_over) == (100.0, [59.0, 99.0], True)
     assert sac_peer.train_peer("FetchPush", "FetchPush-v4", 0.5, 200.0, take_kept=True) == longer
+
+
+def test_a_kept_peer_begins_anew_where_it_was_not_saved(tmp_path: Path, sittings: list[tuple[float, float]]) -> None:
+    sac_peer.train_peer("FetchPush", "FetchPush-v4", 0.9, 60.0, take_kept=True)
+    (tmp_path / "FetchPush" / sac_peer.REPLAY).unlink()
+    longer = sac_peer.train_peer("FetchPush", "FetchPush-v4", 0.9, 100.0, take_kept=True)
+    assert (sittings[-1], longer.seconds) == ((0.0, 100.0), [99.0])
 
 
 def test_an_epoch_tells_where_the_rest_of_it_goes() -> None:
