@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 pytestmark = pytest.mark.cluster
 
-COUNT = "from sldr_core.processor import *; print(count_cores(), 'core', granted_threads(), 'thread')"
+COUNT = "import os; print('sees', len(os.sched_getaffinity(0)), 'core for', os.environ['OMP_NUM_THREADS'], 'thread')"
 COUNT_CORES = [sys.executable, "-c", COUNT]
 
 
@@ -157,4 +157,4 @@ def test_a_run_that_takes_every_core_sees_only_its_own(db: Database, settings: S
     claimed, child = begin(db, executor, {"compute": {"threads": 0}})
 
     assert wait_for_end(child) == 0
-    assert (settings.run_directory(claimed.run_id) / "log.txt").read_text() == "1 core 1 thread\n"
+    assert (settings.run_directory(claimed.run_id) / "log.txt").read_text() == "sees 1 core for 1 thread\n"
