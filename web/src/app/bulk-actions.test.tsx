@@ -110,3 +110,20 @@ test('a priority goes to the selected runs that have not ended', async () => {
     expect(server.bodiesOf('PUT', '/api/runs/priority')).toEqual([{ run_ids: ['run-1', 'run-2'], priority: 7 }]),
   );
 });
+
+test('runs of different priorities can all be given that of the first', async () => {
+  const runs = [
+    { ...RUN, id: 'run-1', seed: 1, priority: 5 },
+    { ...RUN, id: 'run-2', seed: 2 },
+  ];
+  server.on('GET /api/runs', () => ({ body: { runs, values: [[], []], next_cursor: null, total: 2 } }));
+  const { user } = openPage('/');
+  await user.click(await screen.findByRole('checkbox', { name: 'Select all runs of this table' }));
+  await press(user, /^Priority/);
+  const field = await screen.findByRole<HTMLInputElement>('textbox', { name: 'Priority of the selected runs' });
+  expect(field.value).toBe('');
+  await user.type(field, '5{Enter}');
+  await waitFor(() =>
+    expect(server.bodiesOf('PUT', '/api/runs/priority')).toEqual([{ run_ids: ['run-1', 'run-2'], priority: 5 }]),
+  );
+});

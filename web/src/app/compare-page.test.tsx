@@ -45,8 +45,10 @@ test('an address opens the same view: filters, table and pin', async () => {
 });
 
 test('what is left out is told, with the reason', async () => {
+  server.on('GET /api/compare', () => ({ body: { ...COMPARISON, every: 2 } }));
   openPage('/compare');
   expect(await screen.findByText('1 run not shown')).toBeTruthy();
+  expect(screen.getByText(/only one cycle in 2 is read/)).toBeTruthy();
   expect(screen.getByText(/It has not logged test\/success_rate yet/)).toBeTruthy();
 });
 

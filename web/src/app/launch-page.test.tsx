@@ -55,6 +55,29 @@ test('a model of the zoo is told with its measured success, and is not queued', 
   );
 });
 
+test('locomotion runs of other tasks say of which, each in a row of its own', async () => {
+  const complaints = vi.spyOn(console, 'error');
+  const needed = { ...PLANNED, phase: 'locomotion', method: 'her' };
+  server.on('POST /api/launches/plan', () => ({
+    body: {
+      runs: [
+        { ...needed, task: 'HandEggTranslate' },
+        { ...needed, task: 'HandEggRotate' },
+        { ...PLANNED, phase: 'manipulation' },
+      ],
+    },
+  }));
+  openPage('/launch');
+  const plan = within(await screen.findByRole('complementary', { name: 'What will be queued' }));
+  await plan.findByText('3 runs');
+  const rows = plan.getAllByRole('listitem').map(({ textContent }) => textContent);
+  expect(rows[0]).toMatch(/^locomotion of HandEggTranslate, her, seed 0/);
+  expect(rows[1]).toMatch(/^locomotion of HandEggRotate, her, seed 0/);
+  expect(rows[2]).toMatch(/^manipulation, her-sldr, seed 0/);
+  expect(complaints.mock.calls.filter(([text]) => String(text).includes('same key'))).toEqual([]);
+  complaints.mockRestore();
+});
+
 test('a run that only repeats another says so, and is launched all the same', async () => {
   server.on('POST /api/launches/plan', () => ({
     body: {

@@ -44,6 +44,22 @@ test('launching again names the run', async () => {
   );
 });
 
+test.each([
+  ['paused', 'The run is held before its first cycle', 'No curves yet'],
+  ['succeeded', 'Its model came with the product; it was not trained here.', 'No curves'],
+  ['failed', 'The run ended before its first cycle.', 'No curves'],
+] as const)('a run without curves that is %s says why', async (state, why, title) => {
+  openRun({ state, started_at: null });
+  expect(await screen.findByText(why, { exact: false })).toBeTruthy();
+  expect(screen.getByRole('heading', { name: title })).toBeTruthy();
+});
+
+test('paused is said of a run that was held as of one that saved a checkpoint', async () => {
+  const { user } = openRun({ state: 'paused', started_at: null }, '?tab=config');
+  await user.hover(await screen.findByText('paused'));
+  expect((await screen.findByRole('tooltip')).textContent).toBe('Held until a person resumes it.');
+});
+
 /** Take the clipboard away; return what is copied without it, which the browser may refuse too. */
 function withoutClipboard(isAllowed: boolean): string[] {
   const copied: string[] = [];

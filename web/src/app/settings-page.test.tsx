@@ -63,6 +63,7 @@ beforeEach(() => {
 });
 afterEach(() => {
   vi.unstubAllGlobals();
+  vi.restoreAllMocks();
   window.localStorage.clear();
 });
 
@@ -108,7 +109,7 @@ test('what would go is shown before a person lets it go', async () => {
   expect(server.bodiesOf('POST', '/api/retention')).toEqual([{ kinds: ['replay'], older_than_days: 30 }]);
 });
 
-test('notifications are shown once it is wanted, each once, and lead to the run', async () => {
+test('notifications are shown from when it is wanted, each once, and lead to the run', async () => {
   const shown: { body?: string; onclick?: () => void }[] = [];
   class Fake {
     static permission = 'default';
@@ -126,11 +127,18 @@ test('notifications are shown once it is wanted, each once, and lead to the run'
   vi.stubGlobal('Notification', Fake);
   vi.spyOn(window, 'focus').mockReturnValue();
   const before = { ...NOTICE, occasion: '0', at: '2025-12-31T23:00:00Z', message: 'Before the page was opened.' };
+  const meanwhile = { ...NOTICE, occasion: '0b', at: '2025-12-31T23:55:00Z', message: 'Before it was wanted.' };
   // The browser's clock is fast: by the server's it has just happened.
-  server.on('GET /api/notices', () => ({ body: { notices: [before, NOTICE], now: NOTICE.at } }));
+  server.on('GET /api/notices', async () => {
+    await new Promise((resolve) => setTimeout(resolve, 50));
+    return { body: { notices: [before, meanwhile, NOTICE], now: NOTICE.at } };
+  });
   const { user, router } = openPage('/settings');
+  const wish = await screen.findByRole('switch', { name: /Show a notification/ });
   expect(shown).toEqual([]);
-  await user.click(await screen.findByRole('switch', { name: /Show a notification/ }));
+  const clock = Date.now;
+  vi.spyOn(Date, 'now').mockImplementation(() => clock() + 600_000); // ten minutes after the page was opened
+  await user.click(wish);
   await waitFor(() => expect(shown.map(({ body }) => body)).toEqual([NOTICE.message]));
   shown[0]?.onclick?.();
   await waitFor(() => expect(router.state.location.pathname).toBe('/runs/run-1'));

@@ -60,7 +60,7 @@ export function curveChartOptions(now: () => CurveChartState, width: number): uP
         ...(xSteps && !isLogX && { incrs: [...xSteps] }),
         ...(isLogX && logAxis('x')),
         values: (_plot, splits, _axis, _space, step) =>
-          splits.map((value) => (value === null ? '' : now().formatX(value, isLogX ? undefined : step))),
+          splits.map((value) => (value === null ? '' : now().formatX(value, step))),
       },
       {
         ...axis,

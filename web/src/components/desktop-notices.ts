@@ -28,17 +28,24 @@ export function useNoticesWanted(): [boolean, (wanted: boolean) => void] {
   return [isWanted, want];
 }
 
-/** Show what happens from now on, if the person wants it; `open` leads to what it is about. */
+/** Show what happens from the moment on at which the person wants it; `open` leads to what it is about. */
 export function useDesktopNotices(open: (path: string) => void): void {
   const [isWanted] = useNoticesWanted();
-  const opened = useRef(Date.now());
+  const wanted = useRef(Date.now());
   // By the server's clock, for this machine's may be fast or slow.
   const begun = useRef<number | null>(null);
-  const since = useRef(new Date(opened.current - FIRST_LOOK_MS).toISOString());
+  const since = useRef(firstLook(wanted.current));
   const told = useRef(new Set<string>());
   const opening = useRef(open);
   opening.current = open;
   const isOn = isWanted && canNotify() && Notification.permission === 'granted';
+  // Before the question, whose own effect asks at once.
+  useEffect(() => {
+    if (!isOn) return;
+    wanted.current = Date.now();
+    begun.current = null;
+    since.current = firstLook(wanted.current);
+  }, [isOn]);
   const { data } = useQuery({
     queryKey: ['notices'],
     queryFn: ({ signal }) =>
@@ -50,7 +57,7 @@ export function useDesktopNotices(open: (path: string) => void): void {
   useEffect(() => {
     if (data === undefined) return;
     const now = Date.parse(data.now);
-    const start = begun.current ?? now - (Date.now() - opened.current);
+    const start = begun.current ?? now - (Date.now() - wanted.current);
     begun.current = start;
     since.current = new Date(Math.max(start, now - OVERLAP_MS)).toISOString();
     const notices = data.notices.filter(({ at }) => Date.parse(at) > start);
@@ -62,4 +69,8 @@ export function useDesktopNotices(open: (path: string) => void): void {
       };
     }
   }, [data]);
+}
+
+function firstLook(wanted: number): string {
+  return new Date(wanted - FIRST_LOOK_MS).toISOString();
 }

@@ -6,7 +6,8 @@ import { useEffect, useRef, useState } from 'react';
 const HIGHEST = 100;
 
 interface Props {
-  value: number;
+  /** Null where several runs have different ones: the field is empty, and whatever is typed is given. */
+  value: number | null;
   label: string;
   /** Give it; a promise that is broken if it is refused. */
   onSet: (priority: number) => Promise<unknown>;
@@ -20,7 +21,9 @@ export function PriorityField({ value, label, onSet, isEager = false }: Props) {
   // biome-ignore lint/correctness/useExhaustiveDependencies: what was typed gives way to what is known now
   useEffect(() => setTyped(null), [value]);
   useEffect(() => {
-    if (isEager) field.current?.select();
+    if (!isEager) return;
+    field.current?.focus({ preventScroll: true });
+    field.current?.select();
   }, [isEager]);
   const take = (): void => {
     if (typeof typed === 'number' && typed !== value) onSet(typed).catch(() => setTyped(null));
@@ -36,7 +39,7 @@ export function PriorityField({ value, label, onSet, isEager = false }: Props) {
       clampBehavior="strict"
       allowDecimal={false}
       aria-label={label}
-      value={typed ?? value}
+      value={typed ?? value ?? ''}
       onChange={setTyped}
       onBlur={take}
       onKeyDown={(event) => {

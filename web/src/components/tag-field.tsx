@@ -1,6 +1,7 @@
 /** A field for tags: those in use are offered, new ones are typed. */
 import { TagsInput } from '@mantine/core';
 import { useQuery } from '@tanstack/react-query';
+import type { Ref } from 'react';
 import { LONGEST_TAG, tagsQuery } from '@/lib/labels';
 
 interface Props {
@@ -10,12 +11,14 @@ interface Props {
   /** Offered instead of all tags in use. */
   known?: readonly string[];
   placeholder?: string;
+  ref?: Ref<HTMLInputElement>;
 }
 
-export function TagField({ label, value, onChange, known, placeholder }: Props) {
+export function TagField({ label, value, onChange, known, placeholder, ref }: Props) {
   const { data } = useQuery(tagsQuery);
   return (
     <TagsInput
+      ref={ref}
       size="xs"
       label={label}
       placeholder={value.length === 0 ? placeholder : undefined}

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { ACTIONS, type Actable, allows, summarise } from '@/lib/run-actions';
+import { ACTION_MEANING, ACTIONS, type Actable, allows, summarise } from '@/lib/run-actions';
 
 const RUN: Actable = {
   id: 'a',
@@ -25,6 +25,10 @@ test.each([
   [{ state: 'cancelled', deleted_at: '2026-01-01T10:00:00Z' }, ['restore']],
 ] as const)('a run that is %j allows %j', (changes, actions) => {
   expect(allowed(changes)).toEqual(actions);
+});
+
+test('to cancel is told with what it loses, beside pausing, which loses nothing', () => {
+  expect(ACTION_MEANING.cancel).toMatch(/learnt since the last checkpoint is lost/);
 });
 
 test('of one run the sentence of the server is told', () => {

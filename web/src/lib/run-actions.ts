@@ -30,7 +30,7 @@ export const ACTION_MEANING: Record<Action, string> = {
   release: 'Start it although its locomotion model missed the gate.',
   retry: 'Try it again, from its last checkpoint.',
   pause: 'Save a checkpoint at the end of the cycle and free the slot.',
-  cancel: 'End it; what it has learnt so far stays.',
+  cancel: 'End it within seconds; what was learnt since the last checkpoint is lost.',
   delete: 'Hide it from every list; this can be undone, and frees no disk.',
   restore: 'Bring it back as it was.',
 };

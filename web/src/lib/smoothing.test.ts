@@ -27,3 +27,12 @@ test('gaps stay gaps and do not fade what came before', () => {
 test('points far apart are hardly smoothed', () => {
   expect(smooth([0, 1], [0, 100], 0.9)[1]).toBeCloseTo(1, 3);
 });
+
+test('points between the steps do not smooth a curve the more', () => {
+  const between = smooth([2, 4, 4, 4, 4], [1, 1.25, 1.5, 1.75, 2], 0.5);
+  expect(between[4]).toBeCloseTo(smooth([2, 4], [1, 2], 0.5)[1] ?? 0);
+});
+
+test('of points at one place the last counts, as if it stood there alone', () => {
+  expect(smooth([9, 2, 9, 4], [1, 1, 2, 2], 0.5)[3]).toBeCloseTo(smooth([2, 4], [1, 2], 0.5)[1] ?? 0);
+});

@@ -15,16 +15,20 @@ export function smooth(
   weight: number,
 ): readonly (number | null)[] {
   if (weight <= 0) return values;
-  let mean = 0;
-  let missing = 1;
+  let before = { mean: 0, missing: 1 };
+  let here = before;
+  let kept = weight;
   let last: number | null = null;
   return values.map((value, at) => {
     if (value === null || !Number.isFinite(value)) return null;
     const step = steps[at] ?? at;
-    const kept = weight ** Math.max(1, last === null ? 1 : step - last);
-    last = step;
-    mean = kept * mean + (1 - kept) * value;
-    missing *= kept;
-    return mean / (1 - missing);
+    // Of points at one place only the last counts, as where the server brings seeds to common places.
+    if (last === null || step > last) {
+      kept = weight ** (last === null ? 1 : step - last);
+      before = here;
+      last = step;
+    }
+    here = { mean: kept * before.mean + (1 - kept) * value, missing: kept * before.missing };
+    return here.mean / (1 - here.missing);
   });
 }

@@ -22,7 +22,8 @@ export function useCommands(text: string, onShowShortcuts: () => void): CommandG
   const mayLaunch = useMay('operator');
   const choices = useQuery(choicesQuery).data;
   const [asked] = useDebouncedValue(text.trim(), TYPING_REST_MS);
-  const runs = useQuery(foundRunsQuery(asked)).data?.runs ?? [];
+  const found = useQuery(foundRunsQuery(asked));
+  const runs = found.data?.runs ?? [];
   const studies = useQuery(studiesQuery(false)).data?.studies ?? [];
   return [
     { title: 'Pages', commands: pages(navigate, mayLaunch) },
@@ -30,7 +31,8 @@ export function useCommands(text: string, onShowShortcuts: () => void): CommandG
     {
       title: asked === '' ? 'Newest runs' : 'Runs',
       commands: runs.map((run) => openRun(run, navigate)),
-      isFound: true,
+      // Until the answer to what stands there now has come, an older one may hold what does not fit.
+      isFound: asked === text.trim() && !found.isPlaceholderData,
     },
     { title: 'Studies', commands: studies.map((study) => openStudy(study, navigate)) },
     { title: 'Look and help', commands: useLook(onShowShortcuts) },

@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import type { RunFile } from '@/client/schema.gen';
-import { FIRST_CHOICE, policyNames, recordedEpochs, sceneRequest } from './scene-choice';
+import { episodeCount, FIRST_CHOICE, policyNames, recordedEpochs, sceneRequest } from './scene-choice';
 
 function file(name: string, kind: string): RunFile {
   return { name, kind, size: 1, sha256: '', created_at: '', url: '', ticket: null };
@@ -17,6 +17,15 @@ const FILES = [
 test('policies and recorded epochs are found among the files', () => {
   expect(policyNames(FILES)).toEqual(['checkpoint.pt', 'policy-epoch-0001.pt']);
   expect(recordedEpochs(FILES)).toEqual([10, 2]);
+});
+
+test('as many episodes can be chosen as were recorded, and the one that an address names', () => {
+  const config = (recorded_episodes: number, test_episodes = 100) => ({ loop: { recorded_episodes, test_episodes } });
+  expect(episodeCount(config(20), 0)).toBe(20);
+  expect(episodeCount(config(20, 10), 0)).toBe(10);
+  expect(episodeCount(config(2), 0)).toBe(2);
+  expect(episodeCount(config(2), 4)).toBe(5);
+  expect(episodeCount({ loop: {} }, 0)).toBe(6);
 });
 
 test('each kind asks for what it needs', () => {

@@ -1,5 +1,6 @@
 /** What of a run is shown in 3D: what can be chosen, and how the server is asked for it. */
 import type { EpisodeView, LiveView, RunFile, TimeMachineView } from '@/client/schema.gen';
+import { type Config, valueAt } from '@/lib/settings';
 
 export type SceneRequest = LiveView | EpisodeView | TimeMachineView;
 
@@ -65,4 +66,14 @@ export function recordedEpochs(files: readonly RunFile[]): number[] {
     .filter((epoch) => epoch !== undefined)
     .map(Number)
     .sort((one, other) => other - one);
+}
+
+/** Episodes of a test that were recorded before a config could say how many. */
+const USUAL_EPISODES = 6;
+
+/** How many episodes of a test there are to choose from, the chosen one among them. */
+export function episodeCount(config: Config, index: number): number {
+  const recorded = Number(valueAt(config, 'loop.recorded_episodes') ?? USUAL_EPISODES);
+  const tested = Number(valueAt(config, 'loop.test_episodes') ?? recorded);
+  return Math.max(Math.min(recorded, tested), index + 1);
 }

@@ -15,7 +15,7 @@ export function LeftOutNotes({ comparison: { unread, every = 1, left_out } }: Pr
       {unread > 0 && (
         <p>{formatPlural(unread, 'older run')} would fit too; only the newest are read. Filter for them.</p>
       )}
-      {every > 1 && <p>This metric has so many points that only every {every}th cycle is read.</p>}
+      {every > 1 && <p>This metric has so many points that only one cycle in {every} is read.</p>}
       {left_out.length > 0 && (
         <details>
           <summary>{formatPlural(left_out.length, 'run')} not shown</summary>

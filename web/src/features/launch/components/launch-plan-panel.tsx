@@ -30,7 +30,7 @@ export function LaunchPlanPanel({ form, problems, fieldProblems, isLaunching }: 
       <h2 className={classes.planTitle}>What will be queued</h2>
       <div aria-live="polite" data-planning={isPlanning || undefined} className={classes.planBody}>
         {plan ? (
-          <Plan plan={plan} />
+          <Plan plan={plan} task={form.chosen.task} />
         ) : (
           <p className="faint">{fieldProblems.length > 0 ? 'Mend the marked fields first:' : 'Looking…'}</p>
         )}
@@ -65,7 +65,7 @@ export function LaunchPlanPanel({ form, problems, fieldProblems, isLaunching }: 
   );
 }
 
-function Plan({ plan }: { plan: LaunchPlan }) {
+function Plan({ plan, task }: { plan: LaunchPlan; task: string }) {
   const reused = plan.runs.filter((run) => run.reused_run_id !== null).length;
   const added = plan.runs.filter(isTrained).length;
   const shipped = plan.runs.length - reused - added;
@@ -77,9 +77,10 @@ function Plan({ plan }: { plan: LaunchPlan }) {
         {shipped > 0 && `, ${formatPlural(shipped, 'model')} taken from the zoo`}.
       </p>
       <ol className={classes.planRows}>
-        {rows.map((run) => (
-          <li key={`${run.phase} ${run.seed}`}>
-            <PlanRow run={run} isNeeded={plan.runs.some((other) => needs(other, run))} />
+        {rows.map((run, at) => (
+          // biome-ignore lint/suspicious/noArrayIndexKey: two runs may be alike in all that is shown, and rows keep no state
+          <li key={`${run.task} ${run.phase} ${run.seed} ${at}`}>
+            <PlanRow run={run} task={task} isNeeded={plan.runs.some((other) => needs(other, run))} />
           </li>
         ))}
       </ol>
@@ -88,12 +89,20 @@ function Plan({ plan }: { plan: LaunchPlan }) {
   );
 }
 
-function PlanRow({ run, isNeeded }: { run: PlannedRun; isNeeded: boolean }) {
+interface RowProps {
+  run: PlannedRun;
+  /** What is launched; locomotion models may be of other tasks. */
+  task: string;
+  isNeeded: boolean;
+}
+
+function PlanRow({ run, task, isNeeded }: RowProps) {
   return (
     <>
       <Icon name={isTrained(run) ? 'launch' : 'succeeded'} size={14} />
       <span>
-        <b>{run.phase}</b>, {run.method}, seed {run.seed}
+        <b>{run.phase}</b>
+        {run.task !== task && ` of ${run.task}`}, {run.method}, seed {run.seed}
         <span className={classes.planNote}>
           {run.reused_run_id !== null ? (
             <>

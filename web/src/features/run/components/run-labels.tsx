@@ -10,19 +10,38 @@ import { sentence } from '@/lib/api';
 import { LONGEST_NOTES, useChangeTags, useSetNotes } from '@/lib/labels';
 import classes from './run-labels.module.css';
 
+type Part = 'tags' | 'notes';
+
+/** Fields and buttons take each other's place, so that whichever comes takes the focus of the one that goes. */
+const takeFocus = (element: HTMLElement | null): void => element?.focus();
+
 export function RunLabels({ run }: { run: RunDetail }) {
-  const [edited, setEdited] = useState<'tags' | 'notes' | null>(null);
-  const close = (): void => setEdited(null);
+  const [edited, setEdited] = useState<Part | null>(null);
+  const [left, setLeft] = useState<Part | null>(null);
+  const close = (): void => {
+    setLeft(edited);
+    setEdited(null);
+  };
   if (edited === 'tags') return <TagsForm run={run} onDone={close} />;
   if (edited === 'notes') return <NotesForm run={run} onDone={close} />;
   return (
     <div className={classes.labels}>
       <TagChips tags={run.tags} />
       <OnlyFor least="operator">
-        <Button variant="subtle" size="compact-xs" onClick={() => setEdited('tags')}>
+        <Button
+          ref={left === 'tags' ? takeFocus : undefined}
+          variant="subtle"
+          size="compact-xs"
+          onClick={() => setEdited('tags')}
+        >
           {run.tags.length > 0 ? 'Edit tags' : 'Add tags'}
         </Button>
-        <Button variant="subtle" size="compact-xs" onClick={() => setEdited('notes')}>
+        <Button
+          ref={left === 'notes' ? takeFocus : undefined}
+          variant="subtle"
+          size="compact-xs"
+          onClick={() => setEdited('notes')}
+        >
           {run.notes === '' ? 'Add notes' : 'Edit notes'}
         </Button>
       </OnlyFor>
@@ -37,16 +56,18 @@ interface FormProps {
 }
 
 function TagsForm({ run, onDone }: FormProps) {
-  const [tags, setTags] = useState<string[]>(run.tags);
+  // Tags that others give or take meanwhile are theirs: only what was changed here is sent.
+  const [first] = useState<readonly string[]>(run.tags);
+  const [tags, setTags] = useState<readonly string[]>(first);
   const changing = useChangeTags();
   const wish = {
     runIds: [run.id],
-    add: tags.filter((tag) => !run.tags.includes(tag)),
-    remove: run.tags.filter((tag) => !tags.includes(tag)),
+    add: tags.filter((tag) => !first.includes(tag)),
+    remove: first.filter((tag) => !tags.includes(tag)),
   };
   return (
     <Form isBusy={changing.isPending} save={() => changing.mutateAsync(wish)} onDone={onDone}>
-      <TagField label="Tags" value={tags} onChange={setTags} placeholder="Type, then Enter" />
+      <TagField ref={takeFocus} label="Tags" value={tags} onChange={setTags} placeholder="Type, then Enter" />
     </Form>
   );
 }
@@ -57,6 +78,7 @@ function NotesForm({ run, onDone }: FormProps) {
   return (
     <Form isBusy={setting.isPending} save={() => setting.mutateAsync(notes)} onDone={onDone}>
       <Textarea
+        ref={takeFocus}
         size="xs"
         label="Notes, as plain text"
         autosize

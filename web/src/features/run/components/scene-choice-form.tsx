@@ -7,6 +7,7 @@ import { Icon } from '@/components/icon';
 import { besideQuery } from '../api/beside';
 import { filesQuery } from '../api/run-records';
 import {
+  episodeCount,
   NEWEST,
   policyNames,
   recordedEpochs,
@@ -17,9 +18,6 @@ import {
   type SceneKind,
 } from '../scene-choice';
 import classes from './run.module.css';
-
-/** Episodes of a test that can be there to choose from. */
-const MOST_EPISODES = 6;
 
 interface Props {
   run: RunDetail;
@@ -45,7 +43,7 @@ export function SceneChoiceForm({ run, first, onWatch }: Props) {
       />
       <p className="faint">{SCENE_TEXTS[choice.kind]}</p>
       {choice.kind === 'live' && <LiveFields run={run} files={files} choice={choice} onChange={change} />}
-      {choice.kind === 'episode' && <EpisodeFields epochs={epochs} choice={chosen} onChange={change} />}
+      {choice.kind === 'episode' && <EpisodeFields run={run} epochs={epochs} choice={chosen} onChange={change} />}
       <Button disabled={isMissing} onClick={() => onWatch(chosen)} leftSection={<Icon name="cube" />}>
         {choice.kind === 'live' && choice.policy === NEWEST ? 'Watch the newest policy' : 'Watch'}
       </Button>
@@ -93,7 +91,7 @@ function LiveFields({ run, files, choice, onChange }: FieldsProps & { run: RunDe
   );
 }
 
-function EpisodeFields({ epochs, choice, onChange }: FieldsProps & { epochs: readonly number[] }) {
+function EpisodeFields({ run, epochs, choice, onChange }: FieldsProps & { run: RunDetail; epochs: readonly number[] }) {
   if (epochs.length === 0) return <p>No test of this run has been recorded yet.</p>;
   return (
     <div className={classes.choiceFields}>
@@ -107,7 +105,7 @@ function EpisodeFields({ epochs, choice, onChange }: FieldsProps & { epochs: rea
         label="Episode"
         value={String(choice.index)}
         onChange={(event) => onChange({ index: Number(event.currentTarget.value) })}
-        data={Array.from({ length: MOST_EPISODES }, (_, index) => String(index))}
+        data={Array.from({ length: episodeCount(run.config, choice.index) }, (_, index) => String(index))}
       />
     </div>
   );

@@ -97,6 +97,7 @@ function BulkPriority({ runs }: { runs: readonly RunSummary[] }) {
   const [isOpen, { toggle, close }] = useDisclosure(false);
   const toast = useToast();
   const setting = useSetPriority();
+  const [shared = null, ...others] = new Set(runs.map((run) => run.priority));
   const set = (priority: number): Promise<void> => {
     const runIds = runs.map((run) => run.id);
     close();
@@ -118,7 +119,12 @@ function BulkPriority({ runs }: { runs: readonly RunSummary[] }) {
       <Popover.Dropdown>
         <div className={classes.priority}>
           <span>Higher starts first, 0 is usual.</span>
-          <PriorityField value={runs[0]?.priority ?? 0} label="Priority of the selected runs" onSet={set} isEager />
+          <PriorityField
+            value={others.length > 0 ? null : shared}
+            label="Priority of the selected runs"
+            onSet={set}
+            isEager
+          />
         </div>
       </Popover.Dropdown>
     </Popover>
