@@ -1,6 +1,6 @@
-import { screen, waitFor } from '@testing-library/react';
+import { act, screen, waitFor } from '@testing-library/react';
 import { beforeEach, expect, test } from 'vitest';
-import { DONE, type FakeServer } from '@/testing/fake-server';
+import { DONE, type FakeServer, problem } from '@/testing/fake-server';
 import { openPage, startServer } from '@/testing/open-page';
 import { RUN } from '@/testing/samples';
 
@@ -44,4 +44,15 @@ test('a view that is replaced or deleted can be had back', async () => {
   await waitFor(() =>
     expect(server.bodiesOf('POST', '/api/views')).toEqual([{ name: 'Failures', search: 'state=failed' }]),
   );
+});
+
+test('an undo that is refused says why, wherever one is by then', async () => {
+  server.on('POST /api/views', () => problem(409, 'name', 'There is a view called so already.'));
+  const { user, router } = openPage('/?task=FetchPush');
+  await user.click(await screen.findByRole('button', { name: 'Views' }));
+  await user.click(await screen.findByRole('button', { name: 'Delete the view Failures' }));
+  const undo = await screen.findByRole('button', { name: 'Undo' });
+  await act(() => router.navigate({ to: '/settings' }));
+  await user.click(undo);
+  expect(await screen.findByText('There is a view called so already.')).toBeTruthy();
 });

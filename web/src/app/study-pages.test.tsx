@@ -1,4 +1,4 @@
-import { screen, waitFor, within } from '@testing-library/react';
+import { act, screen, waitFor, within } from '@testing-library/react';
 import { beforeEach, expect, test } from 'vitest';
 import { DONE, type FakeServer, problem } from '@/testing/fake-server';
 import { openPage, startServer } from '@/testing/open-page';
@@ -108,6 +108,18 @@ test('a deleted study can be had back at once', async () => {
   await user.click(await screen.findByRole('button', { name: 'Delete' }));
   await user.click(await screen.findByRole('button', { name: 'Undo' }));
   await waitFor(() => expect(server.bodiesOf('POST', `${PATH}/restore`)).toHaveLength(1));
+});
+
+test('an undo that is refused says why, wherever one is by then', async () => {
+  server
+    .on(`DELETE ${PATH}`, () => DONE)
+    .on(`POST ${PATH}/restore`, () => problem(409, null, 'There is a study called so already.'));
+  const { user, router } = openPage('/studies/study-1');
+  await user.click(await screen.findByRole('button', { name: 'Delete' }));
+  const undo = await screen.findByRole('button', { name: 'Undo' });
+  await act(() => router.navigate({ to: '/studies' }));
+  await user.click(undo);
+  expect(await screen.findByText('There is a study called so already.')).toBeTruthy();
 });
 
 test('a study that cannot be restored from the list says why', async () => {

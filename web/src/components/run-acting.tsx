@@ -1,5 +1,6 @@
 /** Do something to runs: ask first where something is lost, say what became of it, offer the way back. */
 import { lazy, type ReactNode, Suspense, useState } from 'react';
+import type { ActionResult } from '@/client/schema.gen';
 import { useToast } from '@/components/toasts';
 import { sentence } from '@/lib/api';
 import { type Actable, type Action, summarise } from '@/lib/run-actions';
@@ -18,25 +19,26 @@ export interface RunActing {
   readonly question: ReactNode;
 }
 
-/** @param onDone called with the ids for which it was done */
+/** @param onDone called with the ids for which it was done, unless one has left by then */
 export function useRunActing(onDone?: (action: Action, runIds: readonly string[]) => void): RunActing {
   const toast = useToast();
   const wishes = useRunActions();
   const [asked, setAsked] = useState<readonly Actable[] | null>(null);
 
+  // What became of it is told wherever one is by then; what the page does about it is for the page that asked.
   const send = (action: Action, runIds: readonly string[]): void => {
-    wishes.mutate(
-      { action, runIds },
-      {
-        onSuccess: ({ results }) => {
-          const { doneIds, ...notice } = summarise(action, results);
-          const undo = action === 'delete' && doneIds.length > 0 ? () => send('restore', doneIds) : undefined;
-          toast({ ...notice, undo });
-          if (doneIds.length > 0) onDone?.(action, doneIds);
-        },
-        onError: (error) => toast({ text: sentence(error), isProblem: true }),
-      },
-    );
+    const tell = ({ results }: { results: ActionResult[] }): void => {
+      const { doneIds, ...notice } = summarise(action, results);
+      const undo = action === 'delete' && doneIds.length > 0 ? () => send('restore', doneIds) : undefined;
+      toast({ ...notice, undo });
+    };
+    const onSuccess = ({ results }: { results: ActionResult[] }): void => {
+      const { doneIds } = summarise(action, results);
+      if (doneIds.length > 0) onDone?.(action, doneIds);
+    };
+    wishes
+      .mutateAsync({ action, runIds }, { onSuccess })
+      .then(tell, (error: unknown) => toast({ text: sentence(error), isProblem: true }));
   };
   const act = (action: Action, runs: readonly Actable[]): void => {
     if (action === 'cancel' && runs.some((run) => run.state === 'running')) setAsked(runs);

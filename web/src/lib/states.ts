@@ -22,7 +22,7 @@ export const STATE_MEANING: Record<RunState, string> = {
   blocked: 'Waits for another run, or below its gate.',
   queued: 'Waits for a free worker.',
   running: 'A worker trains it.',
-  paused: 'Checkpointed; waits for a person.',
+  paused: 'Held until a person resumes it.',
   succeeded: 'Trained to its end.',
   failed: 'Ended by an error.',
   cancelled: 'Ended by a person.',

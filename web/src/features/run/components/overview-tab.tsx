@@ -118,8 +118,13 @@ function NoCurves({ run }: { run: RunDetail }) {
     blocked: 'The run waits for its locomotion model; its curves appear here once it trains.',
     queued: 'The run waits for a free worker; its curves appear here once it trains.',
     running: 'The first cycle is under way; its numbers appear here in a few seconds.',
+    paused: 'The run is held before its first cycle; its curves appear here once it has been resumed and trains.',
+    // No training succeeds without a cycle: only a model of the zoo has none, here or where it was imported from.
+    succeeded: 'Its model came with the product; it was not trained here.',
   };
   return (
-    <SentencePanel title="No curves yet">{words[run.state] ?? 'The run ended before its first cycle.'}</SentencePanel>
+    <SentencePanel title={hasEnded(run.state) ? 'No curves' : 'No curves yet'}>
+      {words[run.state] ?? 'The run ended before its first cycle.'}
+    </SentencePanel>
   );
 }

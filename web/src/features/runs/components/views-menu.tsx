@@ -19,11 +19,9 @@ export function ViewsMenu() {
   const search = useRouterState({ select: (state) => state.location.searchStr.replace(/^\?/, '') });
   const toast = useToast();
   const changing = useChangeViews();
+  // What became of it is told wherever one is by then.
   const change = (wish: ViewWish, onDone?: () => void): void =>
-    changing.mutate(wish, {
-      onSuccess: onDone,
-      onError: (error) => toast({ text: sentence(error), isProblem: true }),
-    });
+    void changing.mutateAsync(wish).then(onDone, (error: unknown) => toast({ text: sentence(error), isProblem: true }));
   // Views are everyone's: what one click takes from the others, another gives back.
   const replace = (view: SavedView): void =>
     change({ kind: 'replace', id: view.id, search }, () =>

@@ -18,11 +18,12 @@ export function StudyActions({ study }: { study: StudyDetail }) {
   const isMine = useMay('operator');
   const [isAdding, adding] = useDisclosure(false);
   const [isEditing, editing] = useDisclosure(false);
+  // What became of it is told wherever one is by then.
   const send = (wish: StudyWish, undo?: () => void): void =>
-    wishes.mutate(wish, {
-      onSuccess: (text) => toast({ text, undo }),
-      onError: (error) => toast({ text: sentence(error), isProblem: true }),
-    });
+    void wishes.mutateAsync(wish).then(
+      (text) => toast({ text, undo }),
+      (error: unknown) => toast({ text: sentence(error), isProblem: true }),
+    );
   const act = (action: 'fill' | 'retry-failed' | 'retry-cancelled' | 'restore'): void =>
     send({ action, studyId: study.id });
   const missing = study.cells.reduce((sum, cell) => sum + cell.missing_seeds.length, 0);
