@@ -14,6 +14,7 @@ from pydantic.dataclasses import dataclass
 
 from sldr_core.config import (
     LOCOMOTION_METHOD,
+    PHASES,
     Phase,
     TaskSpec,
     TrainConfig,
@@ -165,9 +166,11 @@ def make_config(
     """Return the whole config of one run: task's numbers, then method, then preset, then overrides.
 
     Raises:
-        UnknownName: task, method or preset does not exist.
+        UnknownName: task, phase, method or preset does not exist.
         InvalidConfig: a setting is unknown or cannot work, or an override names what is an argument.
     """
+    if phase not in PHASES:
+        raise UnknownName("phase", phase, PHASES)
     check_overrides(overrides or {})
     settings: Settings = {"task": task, "phase": phase, "method": method, "seed": seed}
     spec, budget = find_task(task, _variant_in(overrides)), find_preset(preset)

@@ -175,7 +175,12 @@ def test_a_replay_of_exactly_two_cycles_is_enough() -> None:
 
 @pytest.mark.parametrize(
     ("find", "name", "near"),
-    [(find_task, "fetchpush", "FetchPush"), (find_method, "hersldr", "her-sldr"), (find_preset, "smoky", "smoke")],
+    [
+        (find_task, "fetchpush", "FetchPush"),
+        (find_method, "hersldr", "her-sldr"),
+        (find_preset, "smoky", "smoke"),
+        (lambda name: make_config("FetchPush", name, "her", 0, "smoke"), "locomote", "locomotion"),
+    ],
 )
 def test_an_unknown_name_gets_the_nearest_and_the_whole_list(find: Any, name: str, near: str) -> None:
     with pytest.raises(UnknownName, match=rf"is called '{name}'\. Did you mean '{near}'\? There are: .*{near}"):

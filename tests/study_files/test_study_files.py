@@ -86,6 +86,19 @@ def test_imported_runs_are_marked_and_never_trained_or_joined(db: Database, sett
     assert create_study(db, "My own", SPEC).joined == 0
 
 
+def test_a_model_of_the_zoo_that_comes_with_a_study_trains_no_longer(
+    db: Database, settings: Settings, exported: Path, tmp_path: Path
+) -> None:
+    def untrained(listed: dict[str, Any]) -> None:
+        for run in listed["runs"]:
+            run.update(started_at=None, ended_at=None)
+
+    imported = import_study(db, settings, changed(exported, tmp_path / "zoo.zip", untrained), "It")
+
+    run = get_run(db, get_study(db, imported.study_id).cells[0].runs[0].run_id)
+    assert (run.state, run.training_time.since) == (RunState.SUCCEEDED, None)
+
+
 def test_the_same_file_is_the_same_study(db: Database, settings: Settings, exported: Path) -> None:
     first = import_study(db, settings, exported, "It")
     before = everything_below(settings.runs_directory)

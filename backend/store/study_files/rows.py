@@ -182,14 +182,16 @@ def _run_row(rows: StudyRows, run: RunRecord) -> dict[str, Any]:
 
 
 def _attempt_row(rows: StudyRows, run: RunRecord) -> dict[str, Any]:
+    started = run.started_at or run.created_at
     return {
         "run_id": rows.ids[run.key],
         "attempt": ATTEMPT,
         "fence": 0,
         "worker_id": ELSEWHERE,
         "host": run.machine or rows.content.machine,
-        "started_at": run.started_at or run.created_at,
-        "ended_at": run.ended_at,
+        "started_at": started,
+        # A model of the zoo was never trained, and an attempt without an end would train for ever.
+        "ended_at": run.ended_at or started,
         "outcome": "succeeded",
     }
 
