@@ -1,6 +1,6 @@
-import { screen, waitFor } from '@testing-library/react';
+import { act, screen, waitFor } from '@testing-library/react';
 import { beforeEach, expect, test } from 'vitest';
-import { DONE, type FakeServer } from '@/testing/fake-server';
+import { DONE, type FakeServer, problem } from '@/testing/fake-server';
 import { openPage, startServer } from '@/testing/open-page';
 
 const AT = '2026-01-01T10:00:00Z';
@@ -80,4 +80,28 @@ test('others are told that accounts are for admins', async () => {
   be('operator');
   openPage('/accounts');
   expect(await screen.findByText('Only admins see this')).toBeTruthy();
+});
+
+test('the name of an account or a token that was refused stays, and goes once it is accepted', async () => {
+  be('admin');
+  const refuse = () => problem(409, 'name', 'There is one called so already.');
+  server.on('POST /api/accounts', refuse).on('POST /api/account/tokens', refuse);
+  const { user, router } = openPage('/accounts');
+  const name = await screen.findByLabelText<HTMLInputElement>(/^Name of the new account/);
+  await user.type(name, 'bob{Enter}');
+  expect(await screen.findByText('There is one called so already.')).toBeTruthy();
+  expect(name.value).toBe('bob');
+  const link = { account: { ...ACCOUNT, name: 'bob' }, path: '/welcome#sldr_link', expires_at: AT };
+  server.on('POST /api/accounts', () => ({ status: 201, body: link }));
+  await user.type(name, '{Enter}');
+  await waitFor(() => expect(name.value).toBe(''));
+
+  await act(() => router.navigate({ to: '/account' }));
+  const purpose = await screen.findByLabelText<HTMLInputElement>(/^What it is for/);
+  await user.type(purpose, 'notebook{Enter}');
+  expect(await screen.findByText('There is one called so already.')).toBeTruthy();
+  expect(purpose.value).toBe('notebook');
+  server.on('POST /api/account/tokens', () => ({ status: 201, body: { token: TOKEN, secret: 'sldr_once' } }));
+  await user.type(purpose, '{Enter}');
+  await waitFor(() => expect(purpose.value).toBe(''));
 });

@@ -7,6 +7,7 @@ import type { AppRouter } from '@/app/router';
 import { cssVariables, theme } from '@/app/theme';
 import { Toasts } from '@/components/toasts';
 import { isSignedOut, meQuery } from '@/lib/access';
+import { reconnecting } from '@/lib/reconnecting';
 
 export function App({ router }: { router: AppRouter }) {
   const [queries] = useState(() => makeQueryClient(router));
@@ -37,7 +38,7 @@ function makeQueryClient(router: AppRouter): QueryClient {
     mutationCache: new MutationCache({ onError }),
     defaultOptions: {
       // The server may run on this very machine, so it is asked even when the browser believes to be offline.
-      queries: { retry: false, networkMode: 'always', staleTime: 1_000 },
+      queries: { retry: false, networkMode: 'always', staleTime: 1_000, refetchInterval: reconnecting },
       mutations: { networkMode: 'always' },
     },
   });

@@ -4,7 +4,7 @@ import { Icon } from '@/components/icon';
 import { Unreachable } from '@/lib/api';
 import { formatAgo } from '@/lib/format';
 import { healthQuery } from '@/lib/queries';
-import { useNow } from '@/lib/use-now';
+import { useBrowserNow } from '@/lib/use-now';
 import classes from './shell.module.css';
 
 export function ConnectionBanner() {
@@ -22,7 +22,7 @@ export function ConnectionBanner() {
 }
 
 function Reconnecting({ since }: { since: number }) {
-  const now = useNow();
+  const now = useBrowserNow();
   return (
     <Banner>
       Reconnecting: the server does not answer.

@@ -52,3 +52,17 @@ test('g and a letter go to a page, a question mark lists the shortcuts, and neit
   await user.keyboard('ge');
   await waitFor(() => expect(router.state.location.pathname).toBe('/settings'));
 });
+
+test('whatever had the focus has it again once the palette or the shortcuts are closed', async () => {
+  const { user } = openPage('/');
+  const find = await screen.findByRole('button', { name: 'Find anything' });
+  await user.click(find);
+  await screen.findByRole('combobox', { name: /^A page/ });
+  await user.keyboard('{Escape}');
+  await waitFor(() => expect(document.activeElement).toBe(find));
+  await user.keyboard('?');
+  const dialog = await screen.findByRole('dialog', { name: 'Keyboard shortcuts' });
+  await waitFor(() => expect(dialog.contains(document.activeElement)).toBe(true));
+  await user.keyboard('{Escape}');
+  await waitFor(() => expect(document.activeElement).toBe(find));
+});

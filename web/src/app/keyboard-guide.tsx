@@ -2,6 +2,7 @@
 import { useNavigate } from '@tanstack/react-router';
 import { lazy, Suspense, useEffect, useRef } from 'react';
 import { readShortcut, takesKeys, type Wish } from '@/lib/shortcuts';
+import { useFocusBack } from '@/lib/use-focus-back';
 
 /** The second key of a jump comes this soon after the first [ms]. */
 const CHORD_MS = 1_500;
@@ -27,6 +28,7 @@ export function KeyboardGuide({ shown, onShow }: Props) {
     else onShow(wish.show);
   });
   const close = (): void => onShow(null);
+  useFocusBack(shown !== null);
   return (
     <Suspense fallback={null}>
       {shown === 'palette' && <CommandPalette onClose={close} onShowShortcuts={() => onShow('shortcuts')} />}

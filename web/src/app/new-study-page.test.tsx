@@ -1,4 +1,4 @@
-import { screen, waitFor, within } from '@testing-library/react';
+import { act, screen, waitFor, within } from '@testing-library/react';
 import { beforeEach, expect, test } from 'vitest';
 import { type FakeServer, problem } from '@/testing/fake-server';
 import { openPage, startServer } from '@/testing/open-page';
@@ -104,4 +104,20 @@ test('what the server refuses is said in its words', async () => {
   server.on('POST /api/studies/preview', () => problem(422, 'seeds', 'these are 4000 runs; take fewer.'));
   openPage('/studies/new');
   expect(await screen.findByText('seeds: these are 4000 runs; take fewer.')).toBeTruthy();
+});
+
+test('a draft is there again after a look at another page, until it is launched', async () => {
+  const { user, router } = openPage('/studies/new');
+  const chosen = async (): Promise<boolean> =>
+    (await screen.findByRole<HTMLInputElement>('checkbox', { name: 'her-dense' })).checked;
+  await user.click(await screen.findByRole('checkbox', { name: 'her-dense' }));
+  await act(() => router.navigate({ to: '/studies/new', search: { from: 'study-1' } }));
+  expect(await screen.findByDisplayValue('Copy of Push')).toBeTruthy();
+  expect(await chosen()).toBe(false);
+  await act(async () => router.history.go(-1));
+  await waitFor(async () => expect(await chosen()).toBe(true));
+  await user.click(await screen.findByRole('button', { name: 'Launch 4 runs' }));
+  await waitFor(() => expect(router.state.location.pathname).toBe('/studies/study-1'));
+  await act(async () => router.history.go(-1));
+  expect(await chosen()).toBe(false);
 });

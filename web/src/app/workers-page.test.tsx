@@ -1,6 +1,7 @@
 import { screen, waitFor, within } from '@testing-library/react';
-import { beforeEach, expect, test } from 'vitest';
+import { afterEach, beforeEach, expect, test } from 'vitest';
 import type { Worker } from '@/client/schema.gen';
+import { learnServerTime } from '@/lib/server-clock';
 import { DONE, type FakeServer } from '@/testing/fake-server';
 import { openPage, startServer } from '@/testing/open-page';
 
@@ -25,6 +26,9 @@ let server: FakeServer;
 beforeEach(() => {
   server = startServer().on('PUT /api/workers/w1/draining', () => DONE);
 });
+
+// The clock of a server is known to all tests of this process.
+afterEach(() => learnServerTime(new Date().toUTCString(), Date.now(), Date.now()));
 
 function openWorkers(...workers: Worker[]) {
   server.on('GET /api/workers', () => ({ body: { workers } }));
@@ -59,3 +63,16 @@ test('a worker that is gone says so and cannot be drained', async () => {
   expect(await screen.findByText(/^gone, /)).toBeTruthy();
   expect(screen.queryByRole('button', { name: 'Drain' })).toBeNull();
 });
+
+test.each([60_000, -60_000])(
+  'by a browser clock that is %d ms ahead a worker is neither late nor early',
+  async (ahead) => {
+    const told = Date.now() - ahead;
+    server.on('GET /api/workers', () => ({
+      body: { workers: [{ ...WORKER, last_heartbeat_at: new Date(told - 5_000).toISOString() }] },
+      headers: { date: new Date(told).toUTCString() },
+    }));
+    openPage('/workers');
+    expect(await screen.findByText(/^alive, [4-9] s ago$/)).toBeTruthy();
+  },
+);

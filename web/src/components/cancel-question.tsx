@@ -13,7 +13,8 @@ interface Props {
 export function CancelQuestion({ runs, onKeep, onConfirm }: Props) {
   const them = runs.length > 1 ? 'them' : 'it';
   return (
-    <Modal opened={runs.length > 0} onClose={onKeep} title={questionOf(runs)} centered>
+    // Whoever asks gives the focus back: what was pressed may be gone, or had lost it before this was loaded.
+    <Modal opened={runs.length > 0} onClose={onKeep} title={questionOf(runs)} centered returnFocus={false}>
       <Text size="sm">
         Training ends within seconds, and what was learnt since the last checkpoint is lost. Curves and files stay, and
         a cancelled run can be retried from its checkpoint. To go on later without any loss, pause instead.

@@ -1,12 +1,12 @@
 /** How old the data on the page is. */
 import { formatAgo } from '@/lib/format';
-import { useNow } from '@/lib/use-now';
+import { useBrowserNow } from '@/lib/use-now';
 
 /** Beyond this, data counts as stale [ms]. */
 const STALE_AFTER_MS = 8_000;
 
 export function Freshness({ updatedAt }: { updatedAt: number }) {
-  const now = useNow();
+  const now = useBrowserNow();
   if (updatedAt === 0) return null;
   const age = Math.max(0, now - updatedAt);
   const isStale = age > STALE_AFTER_MS;

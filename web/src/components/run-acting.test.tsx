@@ -36,3 +36,20 @@ test('an undo that does not reach the server says so though the page that asked 
   await user.click(undo);
   expect((await screen.findByRole('alert')).textContent).toContain('The server does not answer.');
 });
+
+test('the button that led to the question has the focus again, the first time too', async () => {
+  server.on('GET /api/runs/run-1', () => ({ body: DETAIL }));
+  const { user } = openPage('/runs/run-1?tab=config');
+  const actions = await screen.findByRole('button', { name: 'Actions' });
+  for (const _ of ['loaded now', 'loaded before']) {
+    actions.focus();
+    await user.keyboard('{Enter}');
+    (await screen.findByRole('menuitem', { name: /^Cancel/ })).focus();
+    await user.keyboard('{Enter}');
+    const keep = await screen.findByRole('button', { name: 'Keep it' });
+    await waitFor(() => expect(document.activeElement).toBe(keep));
+    await user.keyboard('{Enter}');
+    await waitFor(() => expect(screen.queryByRole('dialog')).toBeNull());
+    expect(document.activeElement).toBe(actions);
+  }
+});

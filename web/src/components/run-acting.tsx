@@ -4,6 +4,7 @@ import type { ActionResult } from '@/client/schema.gen';
 import { useToast } from '@/components/toasts';
 import { sentence } from '@/lib/api';
 import { type Actable, type Action, summarise } from '@/lib/run-actions';
+import { useFocusBack } from '@/lib/use-focus-back';
 import { useRunActions } from '@/lib/use-run-actions';
 
 /** Few runs are cancelled while they train, and the dialog is half of what is loaded for it. */
@@ -24,6 +25,7 @@ export function useRunActing(onDone?: (action: Action, runIds: readonly string[]
   const toast = useToast();
   const wishes = useRunActions();
   const [asked, setAsked] = useState<readonly Actable[] | null>(null);
+  useFocusBack(asked !== null && asked.length > 0);
 
   // What became of it is told wherever one is by then; what the page does about it is for the page that asked.
   const send = (action: Action, runIds: readonly string[]): void => {

@@ -1,13 +1,19 @@
 /** Talk to the server: one client, and one kind of error that a person can read. */
 import createClient from 'openapi-fetch';
 import type { Problem, paths } from '@/client/schema.gen';
+import { learnServerTime } from '@/lib/server-clock';
 
 // fetch is looked up at each call, so that a test may replace it.
 export const client = createClient<paths>({
   baseUrl: typeof window === 'undefined' ? '' : window.location.origin,
   // Many pages ask for the same within a second: the server may answer all with one answer.
   headers: { 'Cache-Control': 'max-age=1' },
-  fetch: (request) => globalThis.fetch(request),
+  fetch: async (request) => {
+    const askedAt = Date.now();
+    const response = await globalThis.fetch(request);
+    learnServerTime(response.headers.get('date'), askedAt, Date.now());
+    return response;
+  },
 });
 
 /** The server refused a request and said why. */

@@ -1,6 +1,6 @@
 /** A server in the test's own process: it answers fetch from a table of routes and remembers what it was asked. */
 
-type Answer = { status?: number; body: unknown };
+type Answer = { status?: number; body: unknown; headers?: Record<string, string> };
 type Route = (request: { url: URL; body: unknown }) => Answer | Promise<Answer>;
 
 export interface Asked {
@@ -41,7 +41,7 @@ export class FakeServer {
     const route = this.#routes.get(`${request.method} ${url.pathname}`);
     const answer = route ? await route({ url, body }) : problem(404, null, `The fake has no ${url.pathname}.`);
     if (answer.status === 204) return new Response(null, { status: 204 });
-    return Response.json(answer.body, { status: answer.status ?? 200 });
+    return Response.json(answer.body, { status: answer.status ?? 200, headers: answer.headers });
   }
 }
 

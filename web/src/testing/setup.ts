@@ -60,4 +60,5 @@ window.matchMedia = (query) => ({
 afterEach(() => {
   cleanup();
   window.localStorage.clear();
+  window.sessionStorage.clear();
 });

@@ -20,7 +20,8 @@ test('no leap is longer than the episode', () => {
 
 test('what has the focus keeps the keys that it needs', () => {
   document.body.innerHTML =
-    '<input id="text"><input id="range" type="range"><button id="button">x</button><div role="tablist"><i id="tab"></i></div>';
+    '<input id="text"><input id="range" type="range"><button id="button">x</button><div role="tablist"><i id="tab"></i></div>' +
+    '<section tabindex="0" id="list"><button id="inner">x</button></section><main tabindex="-1" id="main"></main>';
   const at = (id: string): HTMLElement | null => document.getElementById(id);
   expect(needsKey(at('text'), 'ArrowLeft')).toBe(true);
   expect(needsKey(at('range'), 'ArrowLeft')).toBe(true);
@@ -28,5 +29,10 @@ test('what has the focus keeps the keys that it needs', () => {
   expect(needsKey(at('button'), ' ')).toBe(true);
   expect(needsKey(at('button'), 'ArrowLeft')).toBe(false);
   expect(needsKey(at('tab'), 'ArrowLeft')).toBe(true);
+  for (const key of [' ', 'ArrowLeft', 'Home', 'End']) {
+    expect(needsKey(at('list'), key)).toBe(true);
+    expect(needsKey(at('inner'), key)).toBe(true);
+    expect(needsKey(at('main'), key)).toBe(false);
+  }
   expect(needsKey(document.body, ' ')).toBe(false);
 });

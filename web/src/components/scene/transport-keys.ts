@@ -31,7 +31,8 @@ export function needsKey(target: EventTarget | null, key: string): boolean {
   if (!(target instanceof Element)) return false;
   if (
     target.closest(
-      'textarea, select, [contenteditable], [role=tablist], [role=menu], [role=listbox], [role=dialog], dialog',
+      // What can be focused without being a field is scrolled by the keys, or moved.
+      'textarea, select, [contenteditable], [role=tablist], [role=menu], [role=listbox], [role=dialog], dialog, [tabindex="0"]',
     )
   ) {
     return true;

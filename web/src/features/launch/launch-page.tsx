@@ -22,11 +22,7 @@ import { useLaunchForm } from './use-launch-form';
 const route = getRouteApi('/launch');
 
 export function LaunchPage() {
-  const {
-    data: choices,
-    error,
-    refetch,
-  } = useQuery({ ...choicesQuery, refetchInterval: ({ state }) => (state.data ? false : 3_000) });
+  const { data: choices, error, refetch } = useQuery(choicesQuery);
   const { data: runs } = useQuery(anyRunQuery);
   return (
     <>
@@ -87,6 +83,7 @@ function Form({ choices, begin }: { choices: Choices; begin: Begin }) {
   const submit = async (): Promise<void> => {
     if (form.launch === null) return;
     const { runs } = await launching.mutateAsync(form.launch);
+    form.forget();
     const wanted = runs.filter((run) => run.phase === form.chosen.phase && run.method === form.chosen.method);
     const [only] = wanted;
     if (only !== undefined && wanted.length === 1) await navigate({ to: '/runs/$runId', params: { runId: only.id } });

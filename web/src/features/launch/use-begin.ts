@@ -2,6 +2,7 @@
 import { useQueries, useQuery } from '@tanstack/react-query';
 import type { Choices, RunDetail } from '@/client/schema.gen';
 import { defaultsQuery, runQuery } from '@/lib/queries';
+import { reconnecting } from '@/lib/reconnecting';
 import { type Config, differences, readSettingGroups, settingText } from '@/lib/settings';
 
 export interface Begin {
@@ -20,7 +21,7 @@ const ZOO_TAG = 'zoo';
 
 /** @param from the id of the run that is launched again */
 export function useBegin(choices: Choices, from: string | undefined) {
-  const still = { refetchInterval: false as const };
+  const still = { refetchInterval: reconnecting };
   const run = useQuery({ ...runQuery(from ?? ''), ...still, enabled: from !== undefined });
   const told = run.data;
   const { task = '', phase = 'manipulation', method = '', preset = '' } = told ?? {};

@@ -1,11 +1,12 @@
 /** The state of the launch form: the choices in the address, the settings that were typed, and what they add up to. */
 import { useDebouncedValue } from '@mantine/hooks';
 import { useQuery } from '@tanstack/react-query';
-import { useMemo, useState } from 'react';
+import { useMemo } from 'react';
 import type { Choices, Launch } from '@/client/schema.gen';
 import { defaultsQuery } from '@/lib/queries';
 import { parseSeeds } from '@/lib/seeds';
 import { overridesOf, readSettingGroups } from '@/lib/settings';
+import { useKeptDraft } from '@/lib/use-kept-draft';
 import { planQuery } from './api/plan-launch';
 import { fieldProblems } from './field-problems';
 import type { LaunchSearch } from './search';
@@ -46,7 +47,15 @@ export function fillChoices(search: LaunchSearch, choices: Choices, begin: Begin
 export function useLaunchForm(search: LaunchSearch, choices: Choices, begin: Begin) {
   const chosen = fillChoices(search, choices, begin);
   const { task, phase, method, preset } = chosen;
-  const [typed, setTyped] = useState(begin.typed);
+  const {
+    draft: typed,
+    setDraft: setTyped,
+    forget,
+  } = useKeptDraft(begin.typed, {
+    form: 'launch',
+    beginning: JSON.stringify([search.from, task, phase, method, preset]),
+    isDraft: isTyped,
+  });
   const groups = useMemo(() => readSettingGroups(choices.config_schema), [choices.config_schema]);
   const known = useMemo(
     () => new Set([...CHOICE_FIELDS, ...groups.flatMap((group) => group.settings.map((setting) => setting.path))]),
@@ -82,10 +91,17 @@ export function useLaunchForm(search: LaunchSearch, choices: Choices, begin: Beg
     type: (path: string, text: string | undefined) =>
       setTyped(({ [path]: _, ...rest }) => (text === undefined ? rest : { ...rest, [path]: text })),
     resetSettings: () => setTyped({}),
+    /** It is launched: what was typed has served. */
+    forget,
   };
 }
 
 export type LaunchForm = ReturnType<typeof useLaunchForm>;
+
+/** Whether something can be settings by their dotted path, as typed. */
+function isTyped(kept: unknown): kept is Begin['typed'] {
+  return kept instanceof Object && Object.values(kept).every((text) => typeof text === 'string');
+}
 
 function readSeeds(text: string): { seeds: number[]; problem?: string } {
   try {

@@ -6,6 +6,7 @@ import type { Choices, StudyTemplate } from '@/client/schema.gen';
 import { SentencePanel } from '@/components/sentence-panel';
 import { sentence } from '@/lib/api';
 import { choicesQuery } from '@/lib/queries';
+import { reconnecting } from '@/lib/reconnecting';
 import { studyQuery, templatesQuery } from '@/lib/studies';
 import { Builder } from './components/builder';
 import { type Draft, draftOf } from './use-draft';
@@ -14,9 +15,10 @@ const route = getRouteApi('/studies/new');
 
 export function NewStudyPage() {
   const { template, from } = route.useSearch();
+  const beginning = `${template} ${from}`;
   const choices = useQuery(choicesQuery);
   const templates = useQuery(templatesQuery);
-  const cloned = useQuery({ ...studyQuery(from ?? ''), enabled: from !== undefined, refetchInterval: false });
+  const cloned = useQuery({ ...studyQuery(from ?? ''), enabled: from !== undefined, refetchInterval: reconnecting });
   const parts = from === undefined ? [choices, templates] : [choices, templates, cloned];
   const error = parts.find((part) => part.error && !part.data)?.error;
   const isThere = choices.data && templates.data && (from === undefined || cloned.data);
@@ -40,9 +42,10 @@ export function NewStudyPage() {
       {!error && !isThere && <p className="faint">Looking…</p>}
       {isThere && choices.data && templates.data && (
         <Builder
-          key={`${template} ${from}`}
+          key={beginning}
           choices={choices.data}
           templates={templates.data.templates}
+          beginning={beginning}
           begin={beginWith(choices.data, templates.data.templates, template, cloned.data)}
         />
       )}

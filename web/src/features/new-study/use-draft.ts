@@ -1,13 +1,14 @@
 /** The study that is being put together: what was chosen, what it adds up to, and what launching it would do. */
 import { useDebouncedValue } from '@mantine/hooks';
 import { useQuery } from '@tanstack/react-query';
-import { useMemo, useState } from 'react';
+import { useMemo } from 'react';
 import type { Choices, StudySpec } from '@/client/schema.gen';
 import { MOST_STUDY_SEEDS, parseSeeds } from '@/lib/seeds';
 import { readRows, rowsOf, type SettingRow } from '@/lib/setting-rows';
 import { readSettingGroups } from '@/lib/settings';
 import { describeAxes } from '@/lib/studies';
 import { previewQuery } from '@/lib/study-preview';
+import { useKeptDraft } from '@/lib/use-kept-draft';
 
 /** Rest after the last change before the preview is asked for [ms]. */
 const REST_MS = 250;
@@ -40,8 +41,9 @@ export function draftOf(spec: StudySpec, name = ''): Draft {
   };
 }
 
-export function useDraft(begin: Draft, choices: Choices) {
-  const [draft, setDraft] = useState(begin);
+/** @param beginning what it begins with, in one word: a draft that was left is found again by that */
+export function useDraft(begin: Draft, beginning: string, choices: Choices) {
+  const { draft, setDraft, forget } = useKeptDraft(begin, { form: 'study', beginning, isDraft });
   const groups = useMemo(() => readSettingGroups(choices.config_schema), [choices.config_schema]);
   const settings = readRows(groups, draft.rows);
   const seeds = readSeeds(draft.seeds);
@@ -70,6 +72,8 @@ export function useDraft(begin: Draft, choices: Choices) {
   return {
     draft,
     choose: (changes: Partial<Draft>) => setDraft((old) => ({ ...old, ...changes })),
+    /** It is launched: the draft has served. */
+    forget,
     groups,
     problems,
     /** Whether the rows name variants, in whose favour those that came with the draft are left out. */
@@ -83,6 +87,22 @@ export function useDraft(begin: Draft, choices: Choices) {
 }
 
 export type StudyDraft = ReturnType<typeof useDraft>;
+
+/** Whether something can be a draft; what it names need not be there any more. */
+function isDraft(kept: unknown): kept is Draft {
+  const { name, tasks, methods, seeds, preset, locomotion, rows, variants } = Object(kept) as Record<string, unknown>;
+  const isText = (value: unknown): boolean => typeof value === 'string';
+  const isListOf = (value: unknown, isOne: (one: unknown) => boolean): boolean =>
+    Array.isArray(value) && value.every(isOne);
+  const isRow = (row: unknown): boolean => isText(Object(row).path) && isText(Object(row).text);
+  const isVariant = (one: unknown): boolean => isText(Object(one).name) && Object(one).overrides instanceof Object;
+  return (
+    [name, seeds, preset, locomotion].every(isText) &&
+    [tasks, methods].every((names) => isListOf(names, isText)) &&
+    isListOf(rows, isRow) &&
+    isListOf(variants, isVariant)
+  );
+}
 
 /** What a study is called after what it compares. */
 function nameOf(spec: StudySpec): string {

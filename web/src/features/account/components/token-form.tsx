@@ -15,7 +15,8 @@ interface Props {
   /** One's own role: no token may do more. */
   role: Role;
   isBusy: boolean;
-  onCreate: (wish: NewToken) => void;
+  /** Make it; a promise that is broken if it is refused. */
+  onCreate: (wish: NewToken) => Promise<unknown>;
 }
 
 export function TokenForm({ role, isBusy, onCreate }: Props) {
@@ -26,8 +27,11 @@ export function TokenForm({ role, isBusy, onCreate }: Props) {
     <form
       onSubmit={(event) => {
         event.preventDefault();
-        onCreate({ name: name.trim(), role: chosen, days: days === '' ? null : Number(days) });
-        setName('');
+        // Why it was refused is told below; the name stays to be mended.
+        onCreate({ name: name.trim(), role: chosen, days: days === '' ? null : Number(days) }).then(
+          () => setName(''),
+          () => undefined,
+        );
       }}
     >
       <TextInput

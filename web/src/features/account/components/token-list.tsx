@@ -64,7 +64,7 @@ export function TokenList({ role }: { role: Role }) {
           ])}
         />
       )}
-      <TokenForm role={role} isBusy={create.isPending} onCreate={(wish) => create.mutate(wish)} />
+      <TokenForm role={role} isBusy={create.isPending} onCreate={(wish) => create.mutateAsync(wish)} />
       {create.data && (
         <SecretOnce
           label={`The token ${create.data.token.name}`}

@@ -4,15 +4,24 @@ import { useState } from 'react';
 import type { NewAccount } from '@/client/schema.gen';
 import { ROLES, type Role } from '@/lib/access';
 
-export function AccountForm({ isBusy, onAdd }: { isBusy: boolean; onAdd: (wish: NewAccount) => void }) {
+interface Props {
+  isBusy: boolean;
+  /** Make it; a promise that is broken if it is refused. */
+  onAdd: (wish: NewAccount) => Promise<unknown>;
+}
+
+export function AccountForm({ isBusy, onAdd }: Props) {
   const [name, setName] = useState('');
   const [role, setRole] = useState<Role>('operator');
   return (
     <form
       onSubmit={(event) => {
         event.preventDefault();
-        onAdd({ name, role });
-        setName('');
+        // Why it was refused is told below; the name stays to be mended.
+        onAdd({ name, role }).then(
+          () => setName(''),
+          () => undefined,
+        );
       }}
     >
       <TextInput

@@ -61,7 +61,7 @@ export function AccountList() {
         />
       )}
       {data?.accounts.length === 0 && <p className="faint">There is none yet.</p>}
-      <AccountForm isBusy={invite.isPending} onAdd={(wish) => invite.mutate(wish)} />
+      <AccountForm isBusy={invite.isPending} onAdd={(wish) => invite.mutateAsync(wish)} />
       {invite.data && (
         <SecretOnce
           label={`One-time link for ${invite.data.account.name}`}

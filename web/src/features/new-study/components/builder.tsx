@@ -18,12 +18,14 @@ interface Props {
   choices: Choices;
   templates: readonly StudyTemplate[];
   begin: Draft;
+  /** What the draft begins with, in one word. */
+  beginning: string;
 }
 
 const route = getRouteApi('/studies/new');
 
-export function Builder({ choices, templates, begin }: Props) {
-  const form = useDraft(begin, choices);
+export function Builder({ choices, templates, begin, beginning }: Props) {
+  const form = useDraft(begin, beginning, choices);
   const { draft, problems } = form;
   const launching = useLaunchStudy();
   const navigate = route.useNavigate();
@@ -33,10 +35,13 @@ export function Builder({ choices, templates, begin }: Props) {
   };
   const submit = (): void => {
     if (form.spec === null) return;
-    launching.mutate(
-      { name: form.name, note: '', spec: form.spec },
-      { onSuccess: ({ study_id }) => void navigate({ to: '/studies/$studyId', params: { studyId: study_id } }) },
-    );
+    launching
+      .mutateAsync(
+        { name: form.name, note: '', spec: form.spec },
+        { onSuccess: ({ study_id }) => void navigate({ to: '/studies/$studyId', params: { studyId: study_id } }) },
+      )
+      // A refusal is shown beside the button.
+      .then(form.forget, () => undefined);
   };
   return (
     <form

@@ -2,6 +2,7 @@
 import { infiniteQueryOptions, keepPreviousData, queryOptions } from '@tanstack/react-query';
 import { client, unwrap } from '@/lib/api';
 import { SLOW_POLL_MS } from '@/lib/queries';
+import { reconnecting } from '@/lib/reconnecting';
 import type { EpisodePlace, EpisodeSorting } from './place';
 import type { Tag } from './tags';
 
@@ -25,7 +26,7 @@ export function episodesQuery(runId: string, wanted: Wanted, isLive: boolean) {
       const shown = pages.reduce((sum, page) => sum + page.episodes.length, 0);
       return shown < total ? shown : undefined;
     },
-    refetchInterval: isLive ? SLOW_POLL_MS : false,
+    refetchInterval: isLive ? SLOW_POLL_MS : reconnecting,
     placeholderData: keepPreviousData,
   });
 }
