@@ -31,25 +31,19 @@ export function useNoticesWanted(): [boolean, (wanted: boolean) => void] {
 /** Show what happens from the moment on at which the person wants it; `open` leads to what it is about. */
 export function useDesktopNotices(open: (path: string) => void): void {
   const [isWanted] = useNoticesWanted();
-  const wanted = useRef(Date.now());
-  // By the server's clock, for this machine's may be fast or slow.
-  const begun = useRef<number | null>(null);
-  const since = useRef(firstLook(wanted.current));
+  const watch = useRef(beginWatch());
   const told = useRef(new Set<string>());
   const opening = useRef(open);
   opening.current = open;
   const isOn = isWanted && canNotify() && Notification.permission === 'granted';
   // Before the question, whose own effect asks at once.
   useEffect(() => {
-    if (!isOn) return;
-    wanted.current = Date.now();
-    begun.current = null;
-    since.current = firstLook(wanted.current);
+    if (isOn) watch.current = beginWatch();
   }, [isOn]);
   const { data } = useQuery({
     queryKey: ['notices'],
     queryFn: ({ signal }) =>
-      unwrap(client.GET('/api/notices', { params: { query: { since: since.current } }, signal })),
+      unwrap(client.GET('/api/notices', { params: { query: { since: watch.current.since } }, signal })),
     enabled: isOn,
     refetchInterval: POLL_MS,
     refetchIntervalInBackground: true,
@@ -57,10 +51,10 @@ export function useDesktopNotices(open: (path: string) => void): void {
   useEffect(() => {
     if (data === undefined) return;
     const now = Date.parse(data.now);
-    const start = begun.current ?? now - (Date.now() - wanted.current);
-    begun.current = start;
-    since.current = new Date(Math.max(start, now - OVERLAP_MS)).toISOString();
-    const notices = data.notices.filter(({ at }) => Date.parse(at) > start);
+    const { wanted, begun = now - (Date.now() - wanted) } = watch.current;
+    const since = new Date(Math.max(begun, now - OVERLAP_MS)).toISOString();
+    watch.current = { wanted, begun, since };
+    const notices = data.notices.filter(({ at }) => Date.parse(at) > begun);
     for (const notice of untold(notices, told.current)) {
       const shown = new Notification('SLDR', { body: notice.message, tag: noticeKey(notice) });
       shown.onclick = () => {
@@ -71,6 +65,17 @@ export function useDesktopNotices(open: (path: string) => void): void {
   }, [data]);
 }
 
-function firstLook(wanted: number): string {
-  return new Date(wanted - FIRST_LOOK_MS).toISOString();
+/** From which moment on what happens is shown. */
+interface Watch {
+  /** By this machine's clock, which may be fast or slow [ms]. */
+  readonly wanted: number;
+  /** By the server's clock, once it has answered [ms]. */
+  readonly begun?: number;
+  /** What the next question looks back to. */
+  readonly since: string;
+}
+
+function beginWatch(): Watch {
+  const wanted = Date.now();
+  return { wanted, since: new Date(wanted - FIRST_LOOK_MS).toISOString() };
 }

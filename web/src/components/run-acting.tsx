@@ -1,8 +1,7 @@
 /** Do something to runs: ask first where something is lost, say what became of it, offer the way back. */
 import { lazy, type ReactNode, Suspense, useState } from 'react';
 import type { ActionResult } from '@/client/schema.gen';
-import { useToast } from '@/components/toasts';
-import { sentence } from '@/lib/api';
+import { useComplaint, useToast } from '@/components/toasts';
 import { type Actable, type Action, summarise } from '@/lib/run-actions';
 import { useFocusBack } from '@/lib/use-focus-back';
 import { useRunActions } from '@/lib/use-run-actions';
@@ -23,6 +22,7 @@ export interface RunActing {
 /** @param onDone called with the ids for which it was done, unless one has left by then */
 export function useRunActing(onDone?: (action: Action, runIds: readonly string[]) => void): RunActing {
   const toast = useToast();
+  const complain = useComplaint();
   const wishes = useRunActions();
   const [asked, setAsked] = useState<readonly Actable[] | null>(null);
   useFocusBack(asked !== null && asked.length > 0);
@@ -38,9 +38,7 @@ export function useRunActing(onDone?: (action: Action, runIds: readonly string[]
       const { doneIds } = summarise(action, results);
       if (doneIds.length > 0) onDone?.(action, doneIds);
     };
-    wishes
-      .mutateAsync({ action, runIds }, { onSuccess })
-      .then(tell, (error: unknown) => toast({ text: sentence(error), isProblem: true }));
+    wishes.mutateAsync({ action, runIds }, { onSuccess }).then(tell, complain);
   };
   const act = (action: Action, runs: readonly Actable[]): void => {
     if (action === 'cancel' && runs.some((run) => run.state === 'running')) setAsked(runs);

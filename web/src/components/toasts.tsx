@@ -1,6 +1,7 @@
 /** Short notices in a corner: what was done, with a way back where there is one. */
 import { Button, CloseButton } from '@mantine/core';
 import { createContext, type ReactNode, useCallback, useContext, useEffect, useRef, useState } from 'react';
+import { sentence } from '@/lib/api';
 import classes from './toasts.module.css';
 
 export interface Notice {
@@ -24,6 +25,12 @@ const Show = createContext<(notice: Notice) => void>(() => {});
 /** Show a notice. */
 export function useToast(): (notice: Notice) => void {
   return useContext(Show);
+}
+
+/** Say why something was not done. */
+export function useComplaint(): (error: unknown) => void {
+  const show = useToast();
+  return useCallback((error: unknown) => show({ text: sentence(error), isProblem: true }), [show]);
 }
 
 /** What is inside may show notices, and they outlive the page that did. */

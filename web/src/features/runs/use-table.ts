@@ -2,8 +2,7 @@
 import { useNavigate } from '@tanstack/react-router';
 import { useEffect } from 'react';
 import type { RunGroup, RunSummary } from '@/client/schema.gen';
-import { useToast } from '@/components/toasts';
-import { sentence } from '@/lib/api';
+import { useComplaint } from '@/components/toasts';
 import { fetchRowsBetween } from './api/list-runs';
 import type { Lines, Range } from './lines';
 import { filterOf, type RunsSearch } from './search';
@@ -37,8 +36,8 @@ export interface TableProps {
 
 export function useTable(search: RunsSearch, lines: Lines, onChange: (changes: RunsSearch) => void): Table {
   const navigate = useNavigate();
-  const toast = useToast();
-  const selection = useSelection(lines, (error) => toast({ text: sentence(error), isProblem: true }));
+  const complain = useComplaint();
+  const selection = useSelection(lines, complain);
   // Runs that the filters hide must not be acted on by mistake.
   const filter = JSON.stringify(filterOf(search));
   // biome-ignore lint/correctness/useExhaustiveDependencies: it is the change of the filter that clears

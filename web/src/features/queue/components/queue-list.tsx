@@ -1,9 +1,8 @@
 /** The queue as a list whose waiting runs can be put in another order: by mouse, by button, or with Alt and the arrows. */
 import { useLayoutEffect, useRef, useState } from 'react';
 import type { QueueEntry } from '@/client/schema.gen';
-import { useToast } from '@/components/toasts';
+import { useComplaint } from '@/components/toasts';
 import { useMay } from '@/lib/access';
-import { sentence } from '@/lib/api';
 import { runTitle } from '@/lib/run-title';
 import { useMoveRun } from '../api/move-run';
 import { dropped, isMovable, type Move, type ShownQueue, stepped } from '../order';
@@ -12,7 +11,7 @@ import { QueueRow } from './queue-row';
 
 export function QueueList({ queue }: { queue: ShownQueue }) {
   const { entries } = queue;
-  const toast = useToast();
+  const complain = useComplaint();
   const moving = useMoveRun();
   const isMine = useMay('operator');
   const [dragged, setDragged] = useState<string | null>(null);
@@ -24,7 +23,7 @@ export function QueueList({ queue }: { queue: ShownQueue }) {
     focused.current = document.activeElement;
     moving.mutate(wish, {
       onError: (error) => {
-        toast({ text: sentence(error), isProblem: true });
+        complain(error);
         setNews('The order is as it was.');
       },
     });

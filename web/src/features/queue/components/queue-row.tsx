@@ -9,8 +9,7 @@ import { PriorityField } from '@/components/priority-field';
 import { Reason } from '@/components/reason';
 import { RunRemedy } from '@/components/run-remedy';
 import { StateBadge } from '@/components/state-badge';
-import { useToast } from '@/components/toasts';
-import { sentence } from '@/lib/api';
+import { useComplaint } from '@/components/toasts';
 import { runTitle } from '@/lib/run-title';
 import { wishOf } from '@/lib/states';
 import { useSetPriority } from '@/lib/use-run-actions';
@@ -137,7 +136,7 @@ function MoveButton({ label, icon, move, onMove }: MoveProps) {
 }
 
 function Priority({ entry: { run } }: { entry: QueueEntry }) {
-  const toast = useToast();
+  const complain = useComplaint();
   const setting = useSetPriority();
   return (
     <span className={classes.priority}>
@@ -146,12 +145,7 @@ function Priority({ entry: { run } }: { entry: QueueEntry }) {
         <PriorityField
           value={run.priority}
           label={`Priority of ${runTitle(run)}`}
-          onSet={(priority) =>
-            setting.mutateAsync(
-              { runIds: [run.id], priority },
-              { onError: (error) => toast({ text: sentence(error), isProblem: true }) },
-            )
-          }
+          onSet={(priority) => setting.mutateAsync({ runIds: [run.id], priority }, { onError: complain })}
         />
       </OnlyFor>
     </span>

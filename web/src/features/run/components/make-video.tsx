@@ -1,9 +1,8 @@
 /** Order a video of an episode: choose a size, and go. */
 import { Button, NativeSelect } from '@mantine/core';
 import { useState } from 'react';
-import { useToast } from '@/components/toasts';
+import { useComplaint } from '@/components/toasts';
 import { useMay } from '@/lib/access';
-import { sentence } from '@/lib/api';
 import { formatName } from '@/lib/format';
 import { useOrderVideo } from '../api/videos';
 import { FORMATS, type Format, SIZES, type SizeName } from '../video-sizes';
@@ -19,17 +18,14 @@ interface Props {
 }
 
 export function MakeVideo({ runId, epoch, number = 0, label = 'Make a video' }: Props) {
-  const toast = useToast();
+  const complain = useComplaint();
   const order = useOrderVideo(runId);
   const isMine = useMay('operator');
   const [size, setSize] = useState<SizeName>('medium');
   const [format, setFormat] = useState<Format>('mp4');
   if (!isMine) return null;
   const make = (): void =>
-    order.mutate(
-      { epoch: epoch ?? null, number, format, ...SIZES[size] },
-      { onError: (error) => toast({ text: sentence(error), isProblem: true }) },
-    );
+    order.mutate({ epoch: epoch ?? null, number, format, ...SIZES[size] }, { onError: complain });
   return (
     <span className={classes.order}>
       <NativeSelect

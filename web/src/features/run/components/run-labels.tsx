@@ -5,8 +5,7 @@ import type { RunDetail } from '@/client/schema.gen';
 import { OnlyFor } from '@/components/only-for';
 import { TagChips } from '@/components/tag-chips';
 import { TagField } from '@/components/tag-field';
-import { useToast } from '@/components/toasts';
-import { sentence } from '@/lib/api';
+import { useComplaint } from '@/components/toasts';
 import { LONGEST_NOTES, useChangeTags, useSetNotes } from '@/lib/labels';
 import classes from './run-labels.module.css';
 
@@ -100,13 +99,13 @@ interface FrameProps {
 }
 
 function Form({ isBusy, save, onDone, children }: FrameProps) {
-  const toast = useToast();
+  const complain = useComplaint();
   return (
     <form
       className={classes.form}
       onSubmit={(event) => {
         event.preventDefault();
-        save().then(onDone, (error: unknown) => toast({ text: sentence(error), isProblem: true }));
+        save().then(onDone, complain);
       }}
     >
       {children}

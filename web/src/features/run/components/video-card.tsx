@@ -2,8 +2,7 @@
 import { Anchor, Button, Loader } from '@mantine/core';
 import type { Video } from '@/client/schema.gen';
 import { OnlyFor } from '@/components/only-for';
-import { useToast } from '@/components/toasts';
-import { sentence } from '@/lib/api';
+import { useComplaint } from '@/components/toasts';
 import { isOnItsWay, useOrderVideo } from '../api/videos';
 import type { Format } from '../video-sizes';
 import classes from './videos.module.css';
@@ -60,14 +59,11 @@ function VideoCard({ video }: { video: Video }) {
 }
 
 function TryAgain({ video }: { video: Video }) {
-  const toast = useToast();
+  const complain = useComplaint();
   const order = useOrderVideo(video.run_id);
   const { epoch, number, width, height } = video;
   const again = (): void =>
-    order.mutate(
-      { epoch, number, width, height, format: formatOf(video) },
-      { onError: (error) => toast({ text: sentence(error), isProblem: true }) },
-    );
+    order.mutate({ epoch, number, width, height, format: formatOf(video) }, { onError: complain });
   return (
     <Button size="xs" onClick={again} loading={order.isPending}>
       Try again

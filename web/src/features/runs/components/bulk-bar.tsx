@@ -7,8 +7,7 @@ import { Icon } from '@/components/icon';
 import { OnlyFor } from '@/components/only-for';
 import { PriorityField } from '@/components/priority-field';
 import { useRunActing } from '@/components/run-acting';
-import { useToast } from '@/components/toasts';
-import { sentence } from '@/lib/api';
+import { useComplaint, useToast } from '@/components/toasts';
 import { formatPlural } from '@/lib/format';
 import { ACTION_MEANING, ACTION_NAMES, ACTIONS, type Action, allowing } from '@/lib/run-actions';
 import { hasEnded } from '@/lib/states';
@@ -96,6 +95,7 @@ function BulkAction({ action, runs, isBusy, onAct }: ActionProps) {
 function BulkPriority({ runs }: { runs: readonly RunSummary[] }) {
   const [isOpen, { toggle, close }] = useDisclosure(false);
   const toast = useToast();
+  const complain = useComplaint();
   const setting = useSetPriority();
   const [shared = null, ...others] = new Set(runs.map((run) => run.priority));
   const set = (priority: number): Promise<void> => {
@@ -105,7 +105,7 @@ function BulkPriority({ runs }: { runs: readonly RunSummary[] }) {
       { runIds, priority },
       {
         onSuccess: () => toast({ text: `${formatPlural(runs.length, 'run')} now of priority ${priority}.` }),
-        onError: (error) => toast({ text: sentence(error), isProblem: true }),
+        onError: complain,
       },
     );
   };

@@ -3,8 +3,7 @@ import { Button, Popover } from '@mantine/core';
 import { useState } from 'react';
 import type { RunSummary } from '@/client/schema.gen';
 import { TagField } from '@/components/tag-field';
-import { useToast } from '@/components/toasts';
-import { sentence } from '@/lib/api';
+import { useComplaint, useToast } from '@/components/toasts';
 import { formatPlural } from '@/lib/format';
 import { useChangeTags } from '@/lib/labels';
 import classes from './runs.module.css';
@@ -27,6 +26,7 @@ function TagForm({ runs, onDone }: { runs: readonly RunSummary[]; onDone: () => 
   const [add, setAdd] = useState<string[]>([]);
   const [remove, setRemove] = useState<string[]>([]);
   const toast = useToast();
+  const complain = useComplaint();
   const changing = useChangeTags();
   const there = [...new Set(runs.flatMap((run) => run.tags))].sort();
   const apply = (): void =>
@@ -37,7 +37,7 @@ function TagForm({ runs, onDone }: { runs: readonly RunSummary[]; onDone: () => 
           toast({ text: `The tags of ${formatPlural(runs.length, 'run')} are changed.` });
           onDone();
         },
-        onError: (error) => toast({ text: sentence(error), isProblem: true }),
+        onError: complain,
       },
     );
   return (

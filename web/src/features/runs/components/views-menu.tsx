@@ -5,8 +5,7 @@ import { useRouterState } from '@tanstack/react-router';
 import { type FormEvent, useState } from 'react';
 import type { SavedView } from '@/client/schema.gen';
 import { OnlyFor } from '@/components/only-for';
-import { useToast } from '@/components/toasts';
-import { sentence } from '@/lib/api';
+import { useComplaint, useToast } from '@/components/toasts';
 import { useChangeViews, type ViewWish, viewsQuery } from '../api/views';
 import classes from './runs.module.css';
 import { ViewRow } from './view-row';
@@ -18,10 +17,10 @@ export function ViewsMenu() {
   const { data } = useQuery(viewsQuery);
   const search = useRouterState({ select: (state) => state.location.searchStr.replace(/^\?/, '') });
   const toast = useToast();
+  const complain = useComplaint();
   const changing = useChangeViews();
   // What became of it is told wherever one is by then.
-  const change = (wish: ViewWish, onDone?: () => void): void =>
-    void changing.mutateAsync(wish).then(onDone, (error: unknown) => toast({ text: sentence(error), isProblem: true }));
+  const change = (wish: ViewWish, onDone?: () => void): void => void changing.mutateAsync(wish).then(onDone, complain);
   // Views are everyone's: what one click takes from the others, another gives back.
   const replace = (view: SavedView): void =>
     change({ kind: 'replace', id: view.id, search }, () =>

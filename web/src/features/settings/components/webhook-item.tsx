@@ -1,8 +1,7 @@
 /** One address that is told, and what became of the newest messages to it. */
 import { Button } from '@mantine/core';
 import type { Delivery, Webhook } from '@/client/schema.gen';
-import { useToast } from '@/components/toasts';
-import { sentence } from '@/lib/api';
+import { useComplaint } from '@/components/toasts';
 import { formatMoment, formatPlural } from '@/lib/format';
 import { useRemoveWebhook, useTestWebhook } from '../api/webhooks';
 import classes from './settings.module.css';
@@ -31,10 +30,9 @@ export function WebhookItem({ webhook, mayChange }: { webhook: Webhook; mayChang
 }
 
 function Changes({ webhook }: { webhook: Webhook }) {
-  const toast = useToast();
+  const complain = useComplaint();
   const removing = useRemoveWebhook();
   const testing = useTestWebhook();
-  const onError = (error: Error): void => toast({ text: sentence(error), isProblem: true });
   return (
     <span className={classes.row}>
       <Button
@@ -42,7 +40,7 @@ function Changes({ webhook }: { webhook: Webhook }) {
         variant="light"
         loading={testing.isPending}
         aria-label={`Send a test to ${webhook.url}`}
-        onClick={() => testing.mutate(webhook.id, { onError })}
+        onClick={() => testing.mutate(webhook.id, { onError: complain })}
       >
         Send a test
       </Button>
@@ -51,7 +49,7 @@ function Changes({ webhook }: { webhook: Webhook }) {
         variant="default"
         loading={removing.isPending}
         aria-label={`Remove ${webhook.url}`}
-        onClick={() => removing.mutate(webhook.id, { onError })}
+        onClick={() => removing.mutate(webhook.id, { onError: complain })}
       >
         Remove
       </Button>

@@ -4,23 +4,18 @@ import type { StudySummary } from '@/client/schema.gen';
 import { AnchorLink } from '@/components/anchor-link';
 import { ShareBar } from '@/components/share-bar';
 import { StateCounts } from '@/components/state-counts';
-import { useToast } from '@/components/toasts';
+import { useComplaint } from '@/components/toasts';
 import { useMay } from '@/lib/access';
-import { sentence } from '@/lib/api';
 import { formatMoment, formatPlural, formatShare } from '@/lib/format';
 import { describeAxes, leadingState } from '@/lib/studies';
 import { useStudyAction } from '@/lib/use-study-action';
 import classes from './studies.module.css';
 
 export function StudyRow({ study }: { study: StudySummary }) {
-  const toast = useToast();
+  const complain = useComplaint();
   const restoring = useStudyAction();
   const isMine = useMay('operator');
-  const restore = (): void =>
-    restoring.mutate(
-      { action: 'restore', studyId: study.id },
-      { onError: (error) => toast({ text: sentence(error), isProblem: true }) },
-    );
+  const restore = (): void => restoring.mutate({ action: 'restore', studyId: study.id }, { onError: complain });
   return (
     <li className={`card ${classes.study}`} data-study={study.id}>
       <div className={classes.words}>

@@ -2,14 +2,14 @@
 import { Button, FileButton } from '@mantine/core';
 import { useNavigate } from '@tanstack/react-router';
 import { ShareBar } from '@/components/share-bar';
-import { useToast } from '@/components/toasts';
-import { sentence } from '@/lib/api';
+import { useComplaint, useToast } from '@/components/toasts';
 import { formatPlural, formatShare } from '@/lib/format';
 import { useUploadStudy } from '../api/upload-study';
 import classes from './studies.module.css';
 
 export function UploadStudy() {
   const toast = useToast();
+  const complain = useComplaint();
   const navigate = useNavigate();
   const uploading = useUploadStudy(({ study_id, runs, already_there }) => {
     toast({
@@ -18,7 +18,7 @@ export function UploadStudy() {
     void navigate({ to: '/studies/$studyId', params: { studyId: study_id } });
   });
   const take = (file: File | null): void => {
-    if (file) uploading.mutate(file, { onError: (error) => toast({ text: sentence(error), isProblem: true }) });
+    if (file) uploading.mutate(file, { onError: complain });
   };
   if (uploading.isPending) return <Sending share={uploading.share} />;
   return (

@@ -4,9 +4,8 @@ import { useDisclosure } from '@mantine/hooks';
 import type { StudyDetail } from '@/client/schema.gen';
 import { ButtonLink } from '@/components/anchor-link';
 import { Icon } from '@/components/icon';
-import { useToast } from '@/components/toasts';
+import { useComplaint, useToast } from '@/components/toasts';
 import { useMay } from '@/lib/access';
-import { sentence } from '@/lib/api';
 import { type StudyWish, useStudyAction } from '@/lib/use-study-action';
 import { AddDialog } from './add-dialog';
 import { EditDialog } from './edit-dialog';
@@ -14,16 +13,14 @@ import classes from './study.module.css';
 
 export function StudyActions({ study }: { study: StudyDetail }) {
   const toast = useToast();
+  const complain = useComplaint();
   const wishes = useStudyAction();
   const isMine = useMay('operator');
   const [isAdding, adding] = useDisclosure(false);
   const [isEditing, editing] = useDisclosure(false);
   // What became of it is told wherever one is by then.
   const send = (wish: StudyWish, undo?: () => void): void =>
-    void wishes.mutateAsync(wish).then(
-      (text) => toast({ text, undo }),
-      (error: unknown) => toast({ text: sentence(error), isProblem: true }),
-    );
+    void wishes.mutateAsync(wish).then((text) => toast({ text, undo }), complain);
   const act = (action: 'fill' | 'retry-failed' | 'retry-cancelled' | 'restore'): void =>
     send({ action, studyId: study.id });
   const missing = study.cells.reduce((sum, cell) => sum + cell.missing_seeds.length, 0);

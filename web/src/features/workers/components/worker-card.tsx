@@ -4,8 +4,7 @@ import type { ReactNode } from 'react';
 import type { RunState, Worker } from '@/client/schema.gen';
 import { AnchorLink } from '@/components/anchor-link';
 import { OnlyFor } from '@/components/only-for';
-import { useToast } from '@/components/toasts';
-import { sentence } from '@/lib/api';
+import { useComplaint, useToast } from '@/components/toasts';
 import { formatAgo, formatShare, formatSize, NOTHING, secondsBetween } from '@/lib/format';
 import { runTitle } from '@/lib/run-title';
 import { useNow } from '@/lib/use-now';
@@ -108,6 +107,7 @@ function Runs({ worker: { running, alive, draining } }: { worker: Worker }) {
 
 function Drain({ worker: { id, draining, host } }: { worker: Worker }) {
   const toast = useToast();
+  const complain = useComplaint();
   const setting = useSetDraining(id);
   const set = (): void =>
     setting.mutate(!draining, {
@@ -115,7 +115,7 @@ function Drain({ worker: { id, draining, host } }: { worker: Worker }) {
         toast({
           text: draining ? `${host} takes runs again.` : `${host} takes no further run and keeps those that it has.`,
         }),
-      onError: (error) => toast({ text: sentence(error), isProblem: true }),
+      onError: complain,
     });
   return (
     <Button
