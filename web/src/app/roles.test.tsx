@@ -44,7 +44,7 @@ test('a viewer sees a study and may compare it, nothing else', async () => {
   be('viewer');
   openPage('/studies/study-1');
   await screen.findByText(NOTE);
-  const page = within(screen.getByRole('main'));
+  const page = within(await screen.findByRole('main'));
   expect(await page.findByRole('link', { name: 'Compare' })).toBeTruthy();
   expect(page.getByRole('link', { name: 'Export' })).toBeTruthy();
   for (const name of ['Delete', 'Edit', 'Add seeds …', /^Fill/, /^Retry/]) expect(button(name)).toBeNull();
