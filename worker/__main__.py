@@ -26,6 +26,8 @@ def main() -> int:
         db = open_database(settings)
         make = {"local": _work_here, "ray": _work_on_cluster}[options.executor]
         supervisor = make(options, db, settings)
+    except KeyboardInterrupt:
+        return 0
     except Exception as err:
         return tell(err)
     for number in (signal.SIGTERM, signal.SIGINT):

@@ -20,18 +20,24 @@ Result = TypeVar("Result")
 log = logging.getLogger(__name__)
 
 
-def insist(call: Callable[[], Result], retry_s: float = RETRY_S, patience_s: float = inf) -> Result:
+def insist(
+    call: Callable[[], Result],
+    retry_s: float = RETRY_S,
+    patience_s: float = inf,
+    is_over: Callable[[], bool] = lambda: False,
+) -> Result:
     """Call until the store can be used, however long that takes; return what the call returns.
 
-    Who calls this ends with its supervisor, so it cannot wait for ever on its own.
+    Who calls this ends with its supervisor, so it cannot wait for ever on its own; a supervisor says when it `is_over`.
 
     Args:
         call: what to do; it may be done twice, if only its answer was lost.
         retry_s: between two tries [s].
         patience_s: how long to try [s].
+        is_over: whether nobody needs the answer any more.
 
     Raises:
-        StoreUnavailable: patience has ended.
+        StoreUnavailable: patience has ended, or nobody needs the answer any more.
     """
     give_up_at = time.monotonic() + patience_s
     warned = False
@@ -39,7 +45,7 @@ def insist(call: Callable[[], Result], retry_s: float = RETRY_S, patience_s: flo
         try:
             return call()
         except StoreUnavailable as err:
-            if time.monotonic() >= give_up_at:
+            if is_over() or time.monotonic() >= give_up_at:
                 raise
             if not warned:
                 log.warning("Trying again and again: %s", err)

@@ -98,7 +98,11 @@ class Supervisor:
 
     def run(self) -> None:
         """Work until asked to stop. Call it from the main thread."""
-        worker_id = insist(self._register)
+        try:
+            worker_id = insist(self._register, is_over=lambda: self._stops_asked > 0)
+        except StoreUnavailable as err:
+            log.warning("Asked to end before the store knew this worker: %s", err)
+            return
         heart = self._make_heart(worker_id)
         heart.start()
         log.info("Worker %s is ready with %d slot(s).", worker_id, self._slots)

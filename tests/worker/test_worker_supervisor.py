@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+import threading
 import time
 from dataclasses import replace
 
@@ -13,6 +14,7 @@ from worker_cases import TIMING, queued_run, read_log, wait_for_state, wait_for_
 
 from backend.store.actions import request_cancel
 from backend.store.database import Database
+from backend.store.errors import StoreUnavailable
 from backend.store.metrics import read_metrics
 from backend.store.queue import reap_expired
 from backend.store.runs import get_run, list_events
@@ -20,6 +22,8 @@ from backend.store.settings import Settings
 from backend.store.states import RunState
 from backend.store.workers import list_workers
 from sldr_core.errors import InvalidConfig
+from worker import __main__ as process
+from worker import supervisor
 from worker.executors.local import LocalExecutor
 from worker.supervisor import Supervisor
 
@@ -197,3 +201,36 @@ def test_a_lost_run_is_noticed_by_the_heartbeat_and_its_child_killed(db: Databas
 def test_a_worker_without_slots_is_refused(db: Database, settings: Settings) -> None:
     with pytest.raises(InvalidConfig, match="slots: a worker needs at least 1, got 0"):
         Supervisor(db, LocalExecutor(settings), 0)
+
+
+def test_a_worker_can_end_while_it_registers_at_a_store_that_is_locked(
+    db: Database, settings: Settings, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    tried = threading.Event()
+
+    def register(*_: object) -> str:
+        tried.set()
+        raise StoreUnavailable("The database is locked.")
+
+    monkeypatch.setattr(supervisor, "register_worker", register)
+    waiting = Supervisor(db, LocalExecutor(settings), 1, TIMING)
+    thread = threading.Thread(target=waiting.run, daemon=True)
+    thread.start()
+    tried.wait()
+    waiting.ask_to_stop()
+    thread.join(timeout=30.0)
+
+    assert not thread.is_alive()
+
+
+def test_a_worker_that_is_interrupted_before_it_has_opened_the_store_shows_no_trace(
+    settings: Settings, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupt(_: Settings) -> Database:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("sys.argv", ["worker"])
+    monkeypatch.setattr(process, "load_settings", lambda: settings)
+    monkeypatch.setattr(process, "open_database", interrupt)
+
+    assert process.main() == 0
