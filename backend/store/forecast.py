@@ -7,19 +7,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from datetime import UTC, datetime
+from datetime import datetime
 
 from backend.store.database import Database, current_time
 from backend.store.durations import Durations, measure_durations
 from backend.store.order import CLAIM_ORDER
-from backend.store.planning import Planned, plan_starts
+from backend.store.planning import END_OF_TIME, Planned, plan_starts
 from backend.store.runs import RunRow, run_rows
 from backend.store.states import ENDED, RunState
 from backend.store.tables import runs
 from backend.store.workers import WorkerRow, select_workers
-
-NEVER = datetime.max.replace(tzinfo=UTC)
-"""Stands for the start of a run of which nobody can tell."""
 
 
 @dataclass(frozen=True)
@@ -67,7 +64,7 @@ def _place(run: RunRow, plan: Mapping[str, Planned]) -> tuple[int, datetime]:
     planned = plan.get(run.id)
     kinds = (RunState.RUNNING, None, RunState.QUEUED, RunState.BLOCKED, RunState.PAUSED)
     kind = None if planned and run.state is not RunState.RUNNING else run.state
-    return kinds.index(kind), planned.start.at if planned else NEVER
+    return kinds.index(kind), planned.start.at if planned else END_OF_TIME
 
 
 def _entry(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from datetime import datetime, timedelta
+from datetime import UTC, datetime, timedelta
 from heapq import heappop, heappush
 
 from backend.store.runs import RunRow
@@ -13,6 +13,9 @@ from backend.store.workers import WorkerRow
 
 NOBODY_KNOWS_S = 3600.0
 """Taken for a run of whose like none has succeeded, to find an order; no time is told that rests on it [s]."""
+
+END_OF_TIME = datetime.max.replace(tzinfo=UTC)
+"""Stands for a moment that no calendar holds: it serves to find an order, and is not told."""
 
 
 @dataclass(frozen=True, order=True)
@@ -29,7 +32,10 @@ class Moment:
 
     def after(self, seconds: float | None) -> Moment:
         """Return the moment so many seconds later; None stands for nobody knows how many."""
-        later = self.at + timedelta(seconds=NOBODY_KNOWS_S if seconds is None else seconds)
+        try:
+            later = self.at + timedelta(seconds=NOBODY_KNOWS_S if seconds is None else seconds)
+        except OverflowError:
+            return Moment(END_OF_TIME, is_guess=True)
         return Moment(later, self.is_guess or seconds is None)
 
 

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import ConfigDict, Field
 from pydantic.dataclasses import dataclass
 
-from sldr_core.config.numbers import Positive, Share, Weight
+from sldr_core.config.numbers import MOST, Positive, Share, Weight
 
 SldrReward = Literal["advantage", "action_distance"]
 """Which of the paper's rewards compares what the object does with what it wants."""
@@ -45,7 +45,7 @@ class CurriculumConfig:
 
     group_size: Positive = 256
     """Transitions of `loop.batch_size` that stand for one group, as for one worker in the method's own code."""
-    candidates: Annotated[int, Field(ge=2)] = 128
+    candidates: Annotated[int, Field(ge=2, le=MOST)] = 128
     """Relabelled transitions drawn for each group."""
     kept: Positive = 64
     """Transitions kept of each group; a batch has this many for each `group_size` of `loop.batch_size`."""

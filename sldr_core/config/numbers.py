@@ -6,8 +6,15 @@ from typing import Annotated
 
 from pydantic import Field
 
-Positive = Annotated[int, Field(gt=0)]
+MOST = 1_000_000_000
+"""The largest whole number of a setting: far beyond what any training counts to, and products of several stay finite
+as floats, so that time and disk space can be told."""
+
+Positive = Annotated[int, Field(gt=0, le=MOST)]
 """A whole number from 1."""
+
+Count = Annotated[int, Field(ge=0, le=MOST)]
+"""A whole number from 0."""
 
 Share = Annotated[float, Field(ge=0.0, le=1.0)]
 """A number from 0 to 1."""

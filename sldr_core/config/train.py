@@ -11,7 +11,7 @@ from pydantic.dataclasses import dataclass
 
 from sldr_core.config.method_settings import CurriculumConfig, RndConfig, SldrConfig
 from sldr_core.config.methods import METHODS, MethodSpec, find_method
-from sldr_core.config.numbers import Positive, Rate, Return, Share, Weight
+from sldr_core.config.numbers import Count, Positive, Rate, Return, Share, Weight
 from sldr_core.config.tasks import LOCOMOTION_TASKS, TASKS, Phase, TaskSpec, Variant, find_task
 from sldr_core.errors import InvalidConfig, UnknownName
 
@@ -39,7 +39,7 @@ class LoopConfig:
     """Updates between two soft updates of the target networks."""
     batch_size: Positive = 4864
     """Transitions in each update."""
-    warmup_cycles: Annotated[int, Field(ge=0)] = 1
+    warmup_cycles: Count = 1
     """Cycles of uniformly random actions collected before the first update."""
     test_episodes: Positive = 380
     """Episodes of each test, with the deterministic actor."""
@@ -47,7 +47,7 @@ class LoopConfig:
     """The first episodes of each test that are kept to be looked at (0: none); what is learnt does not depend on it."""
     stop_at_success: Share = 1.0
     """End the training early once this test success is held for `stop_after_tests` tests in a row."""
-    stop_after_tests: Annotated[int, Field(ge=0)] = 0
+    stop_after_tests: Count = 0
     """Tests in a row at `stop_at_success` that end the training early (0: never end early)."""
 
 
@@ -117,7 +117,7 @@ class ComputeConfig:
     """`auto` takes a GPU when there is one."""
     precision: Literal["float32", "bfloat16"] = "float32"
     """`bfloat16` runs the learner under autocast: faster where the processor has the instructions, slower elsewhere."""
-    threads: Annotated[int, Field(ge=0)] = 0
+    threads: Count = 0
     """Threads for simulation and learner (0: one per available core, shared out between a worker's slots)."""
 
 

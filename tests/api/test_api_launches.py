@@ -65,6 +65,7 @@ def test_overrides_reach_the_config_and_tell_runs_apart_in_the_table(service: Se
         ({"seeds": [True]}, "seeds.0"),
         ({"seeds": [3, 3]}, "seeds"),
         ({"overrides": {"loop": {"batch_size": -5}}}, "loop.batch_size"),
+        ({"overrides": {"loop": {"epochs": 10**400}}}, "loop.epochs"),
         ({"overrides": {"loop": {"batch_sise": 5}}}, "loop.batch_sise"),
         ({"overrides": {"loop": 5}}, "loop"),
         ({"overrides": {"exploration": {"noise_std": 1e400}}}, "exploration.noise_std"),

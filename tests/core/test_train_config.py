@@ -120,6 +120,8 @@ def test_every_setting_says_what_it_is_and_what_it_is_by_default() -> None:
         ({"loop": {"batch_sise": 1}}, "loop.batch_sise", "Unexpected keyword argument"),
         ({"loop": {"batch_size": -1}}, "loop.batch_size", "greater than 0 (got -1)"),
         ({"loop": {"batch_size": 1.5}}, "loop.batch_size", "(got 1.5)"),
+        ({"loop": {"epochs": 10**12}}, "loop.epochs", "less than or equal to 1000000000 (got 1000000000000)"),
+        ({"loop": {"warmup_cycles": 10**400}}, "loop.warmup_cycles", "less than or equal to 1000000000"),
         ({"agent": {"gamma": 1.0}}, "agent.gamma", "less than 1 (got 1.0)"),
         ({"agent": {"learning_rate": float("nan")}}, "agent.learning_rate", "(got nan)"),
         ({"agent": {"action_l2": float("inf")}}, "agent.action_l2", "finite number (got inf)"),
@@ -139,6 +141,7 @@ def test_every_setting_says_what_it_is_and_what_it_is_by_default() -> None:
         ({"sldr": {"reward": "distance"}}, "sldr.reward", "'advantage' or 'action_distance' (got 'distance')"),
         ({"rnd": {"outputs": 0}}, "rnd.outputs", "greater than 0 (got 0)"),
         ({"curriculum": {"candidates": 1}}, "curriculum.candidates", "(got 1)"),
+        ({"curriculum": {"candidates": 10**12}}, "curriculum.candidates", "less than or equal to 1000000000"),
         (
             {"method": "cher", "loop": {"batch_size": 4865}},
             "loop.batch_size",

@@ -135,3 +135,13 @@ def test_a_run_that_needs_what_will_not_come_is_left_out() -> None:
 
 def test_without_workers_nothing_starts() -> None:
     assert plan_starts([run(0, RunState.QUEUED)], [], {"0": 1.0}, NOW) == {}
+
+
+def test_a_run_that_takes_longer_than_calendars_go_has_no_end_to_tell() -> None:
+    queue = [run(0, RunState.QUEUED), run(1, RunState.QUEUED), run(2, RunState.QUEUED)]
+    seconds: dict[str, float | None] = {"0": 1e15, "1": 1e9, "2": 1.0}
+
+    plan = plan_starts(queue, [worker("a", 1)], seconds, NOW)
+
+    assert [plan[row.id].start.told for row in queue] == [NOW, None, None]
+    assert [plan[row.id].end.told for row in queue] == [None, None, None]
