@@ -87,12 +87,13 @@ def list_own_tokens(caller: KnownCaller, store: Store) -> Tokens:
 @router.post("/tokens", status_code=201, responses=problem_responses(400, 403, 409, 422))
 @needs("viewer", audited=True)
 def create_own_token(wish: NewToken, caller: KnownCaller, store: Store) -> CreatedToken:
-    """Make a token for a program; its secret is shown this once."""
+    """Make a token for a program; its secret is shown this once. A program makes none with a token of its own."""
+    if caller.token is not None:
+        raise ApiError(403, "A token makes no tokens, which would outlive it; sign in to make one.")
     if not allows(caller.role, wish.role):
         raise ApiError(403, f"A token may not do more than you: choose {caller.role} or less.", "role")
     lifetime = None if wish.days is None else timedelta(days=wish.days)
-    latest = None if caller.token is None else caller.token.expires_at
-    token, secret = api_tokens.create_token(store, caller.account_id, wish.name.strip(), wish.role, lifetime, latest)
+    token, secret = api_tokens.create_token(store, caller.account_id, wish.name.strip(), wish.role, lifetime)
     return CreatedToken(token=_token(token), secret=secret)
 
 

@@ -37,18 +37,12 @@ class ApiToken:
 
 
 def create_token(
-    db: Database,
-    account_id: str | None,
-    name: str,
-    role: Role,
-    lifetime: timedelta | None,
-    latest: datetime | None = None,
+    db: Database, account_id: str | None, name: str, role: Role, lifetime: timedelta | None
 ) -> tuple[ApiToken, str]:
     """Make a token; return it with its secret, which is not kept.
 
     Args:
         lifetime: how long it is valid; None: until it is revoked.
-        latest: when it ends whatever its lifetime, as does the token that asks for it.
 
     Raises:
         Refused: the account has too many.
@@ -70,7 +64,7 @@ def create_token(
             "name": name,
             "role": role,
             "created_at": at,
-            "expires_at": _earlier(None if lifetime is None else at + lifetime, latest),
+            "expires_at": None if lifetime is None else at + lifetime,
         }
         row = conn.execute(insert(api_tokens).values(values).returning(*api_tokens.c)).one()
     return _token(row), token
@@ -112,11 +106,6 @@ def revoke_token(db: Database, account_id: str | None, token_id: str) -> None:
         this = and_(api_tokens.c.id == token_id, belongs_to(api_tokens.c.account_id, account_id), _is_valid(at))
         if conn.execute(update(api_tokens).where(this).values(revoked_at=at)).rowcount == 0:
             raise NotFound("token", token_id)
-
-
-def _earlier(one: datetime | None, other: datetime | None) -> datetime | None:
-    """Return which of two ends comes first; None is never."""
-    return min((end for end in (one, other) if end is not None), default=None)
 
 
 def _is_valid(at: datetime) -> ColumnElement[bool]:

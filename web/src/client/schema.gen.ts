@@ -79,7 +79,7 @@ export interface paths {
         put?: never;
         /**
          * Create Own Token
-         * @description Make a token for a program; its secret is shown this once.
+         * @description Make a token for a program; its secret is shown this once. A program makes none with a token of its own.
          */
         post: operations["create_own_token"];
         delete?: never;
