@@ -121,6 +121,10 @@ class Envs:
         """Return what is seen now."""
         return Observation(self._observer.observe(), self._observer.achieved(), self._goal.copy())
 
+    def unstable(self) -> NDArray[np.bool_]:
+        """Tell whose physics came apart since the last reset, `[N]`: what was seen of them since is not to be used."""
+        return self.simulation.unstable()
+
     def reward(self, achieved: NDArray[np.floating], goal: NDArray[np.floating]) -> NDArray[np.float32]:
         """Return the reward, sparse or dense as ordered, of achieved and desired goals `[..., G]`, as `[...]`."""
         return self._reward(self.spec.goal, achieved, goal)

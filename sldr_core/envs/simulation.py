@@ -17,6 +17,16 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 Ids = NDArray[np.int64]
 
+UNSTABLE = [
+    int(warning)
+    for warning in (
+        mujoco.mjtWarning.mjWARN_BADQPOS,
+        mujoco.mjtWarning.mjWARN_BADQVEL,
+        mujoco.mjtWarning.mjWARN_BADQACC,
+    )
+]
+"""Warnings after which MuJoCo has put a simulation back to where its scene begins."""
+
 
 class Simulation:
     """Hold a batch of simulations and the arrays that the environments need."""
@@ -37,6 +47,7 @@ class Simulation:
         self.site_mat: Array = self.batch.bind("site_xmat")
         self._motion_axes: Array = self.batch.bind("cdof")
         self._subtree_com: Array = self.batch.bind("subtree_com")
+        self._warnings: NDArray[np.int32] = self.batch.bind("warning")
         written = (self.qpos, self.qvel, self.ctrl, self.mocap_pos, self.mocap_quat)
         derived = (self.body_pos, self.body_quat, self.site_pos, self.site_mat, self._motion_axes, self._subtree_com)
         self._views: tuple[Array, ...] = (*written, *derived)
@@ -69,6 +80,13 @@ class Simulation:
         self.qpos[ids] = qpos
         self.qvel[ids] = qvel
         self.batch.forward(ids)
+
+    def unstable(self) -> NDArray[np.bool_]:
+        """Tell in which simulations numbers grew beyond all bounds since their last reset, `[N]`.
+
+        MuJoCo puts such a simulation back to where its scene begins, in the middle of whatever was going on.
+        """
+        return np.any(self._warnings[:, UNSTABLE, 1], axis=1)
 
     def snapshot(self) -> Array:
         """Return everything that can be read or will be stepped on from, one row for each simulation, `[N, K]`.

@@ -104,8 +104,12 @@ def _collect(parts: Parts, act: Act, check: Check) -> tuple[Collected, dict[str,
 
 
 def store(parts: Parts, collected: Collected) -> dict[str, float]:
-    """Take episodes into the statistics and the replay buffer; return metrics."""
-    episodes = collected.episodes
+    """Take episodes into the statistics and the replay buffer; return metrics.
+
+    Raises:
+        TrainingDiverged: none can be used.
+    """
+    episodes = collected.usable_episodes()
     obs, action = torch.from_numpy(episodes.obs), torch.from_numpy(episodes.action)
     goal = torch.from_numpy(episodes.goal)[:, None].expand(*episodes.achieved.shape)
     drift = parts.agent.observe(obs, goal)

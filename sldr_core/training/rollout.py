@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -15,6 +16,7 @@ from numpy.typing import NDArray
 
 from sldr_core.config import ExplorationConfig
 from sldr_core.envs import Envs, Observation
+from sldr_core.errors import TrainingDiverged
 from sldr_core.records import Episodes, Floats
 from sldr_core.training.finite import check_episodes
 
@@ -27,6 +29,8 @@ Check = Callable[[], None]
 ACTING_THREADS = 1
 """Of torch while episodes run: a few dozen observations gain nothing from more, and threads that have nothing to do
 wait for the next product by keeping a core busy, which simulations and a learner beside need."""
+
+log = logging.getLogger(__name__)
 
 Watch = Callable[[int, Observation], None]
 """Shown every moment of the episodes, from 0 to T, right after it has come; it changes nothing."""
@@ -64,6 +68,27 @@ class Collected:
     """Whether the last step met the goal, `[N]`."""
     final_distance: Floats
     """How far the last achieved goal was from the goal, as `Envs.remaining_distance` has it, `[N]`."""
+    unstable: NDArray[np.bool_]
+    """Whose physics came apart on the way, `[N]`; such an episode has failed."""
+
+    def usable_episodes(self) -> Episodes:
+        """Return N episodes to learn from: a stable one stands in for each unstable one, so that N stays what it is.
+
+        Raises:
+            TrainingDiverged: there is no stable one.
+        """
+        if not self.unstable.any():
+            return self.episodes
+        stable, unstable = np.flatnonzero(~self.unstable), np.flatnonzero(self.unstable)
+        if not stable.size:
+            raise TrainingDiverged(
+                f"All {len(unstable)} simulations became unstable in one episode, so that there is nothing to learn "
+                f"from; check the masses, gains and time step of the task's scene."
+            )
+        rows = np.arange(len(self.unstable))
+        rows[unstable] = np.resize(stable, unstable.size)
+        episodes = self.episodes
+        return Episodes(episodes.obs[rows], episodes.achieved[rows], episodes.goal[rows], episodes.action[rows])
 
 
 def collect_episodes(envs: Envs, act: Act, check: Check, watch: Watch | None = None) -> Collected:
@@ -90,10 +115,18 @@ def collect_episodes(envs: Envs, act: Act, check: Check, watch: Watch | None = N
     obs[:, length], achieved[:, length] = now.obs, now.achieved
     episodes = Episodes(obs, achieved, goal, action)
     check_episodes(episodes)
+    unstable = envs.unstable()
+    if unstable.any():
+        log.warning(
+            "MuJoCo found simulations unstable (%s) and set them back in the middle of their episodes: these count as "
+            "failed and are not learnt from.",
+            ", ".join(str(index) for index in np.flatnonzero(unstable)),
+        )
     return Collected(
         episodes,
-        envs.success(now.achieved, now.goal),
+        envs.success(now.achieved, now.goal) & ~unstable,
         envs.remaining_distance(now.achieved, now.goal).astype(np.float32),
+        unstable,
     )
 
 
