@@ -68,14 +68,14 @@ class _Scored:
 
 
 def compare_best(db: Database, memory: ComparisonMemory, choice: RunChoice, view: CurveView) -> BestModels:
-    """Compare the best test success of runs; of the view, statistic and level count."""
+    """Compare the best test success of runs; of the view, statistic, level and names count."""
     selection = select_runs(db, memory, choice)
-    version = data_version(("best", choice, view.statistic, view.level), selection.runs)
+    version = data_version(("best", choice, view.statistic, view.level, view.anonymous), selection.runs)
     return memory.answer(version, lambda: _compare(selection, view, version))
 
 
 def _compare(selection: Selection, view: CurveView, version: str) -> BestModels:
-    grouping = selection.group()
+    grouping = selection.group(view.anonymous)
     points = selection.memory.curves(selection.db, selection.runs, SUCCESS_RATE).curves
     tested = {cell: [run for run in runs if len(points[run.id])] for cell, runs in grouping.cells.items()}
     cells = {cell: runs for cell, runs in tested.items() if runs}

@@ -49,6 +49,8 @@ class CurveView:
     """Whether to add each seed's own curve."""
     drop_ended: bool = False
     """Whether a run that is done counts no more behind its end; else its last value does."""
+    anonymous: bool = False
+    """Whether the names of groups hold no ids, which may tell who made the runs."""
 
 
 def compare_curves(db: Database, memory: ComparisonMemory, choice: RunChoice, view: CurveView) -> CurveComparison:
@@ -59,7 +61,7 @@ def compare_curves(db: Database, memory: ComparisonMemory, choice: RunChoice, vi
 
 
 def _compare(selection: Selection, view: CurveView, version: str) -> CurveComparison:
-    grouping = selection.group()
+    grouping = selection.group(view.anonymous)
     read = selection.memory.curves(selection.db, selection.runs, view.metric)
     panels = [
         Panel(

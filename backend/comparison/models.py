@@ -10,16 +10,21 @@ from backend.store.compared_runs import ComparedRun
 from sldr_core.config import flatten
 
 
-def name_models(runs: Sequence[ComparedRun], configs: Mapping[str, Mapping[str, Any]]) -> dict[str, str]:
+def name_models(
+    runs: Sequence[ComparedRun], configs: Mapping[str, Mapping[str, Any]], anonymous: bool = False
+) -> dict[str, str]:
     """Return what each run has learnt from, by run id; runs that have learnt from nothing known are left out.
 
     A locomotion run that was trained anew with the same config, wherever, is the same model; it bears the first id.
 
     Args:
         configs: those of the locomotion runs, by run id.
+        anonymous: whether to number the models instead, as ids may tell who made them.
     """
     names: dict[Variant, str] = {}
-    called = {run_id: names.setdefault(_training(configs[run_id]), run_id) for run_id in sorted(configs)}
+    for run_id in sorted(configs):
+        names.setdefault(_training(configs[run_id]), str(len(names) + 1) if anonymous else run_id)
+    called = {run_id: names[_training(config)] for run_id, config in configs.items()}
     learnt_from = {run.id: [called[run_id] for run_id in run.needs if run_id in called] for run in runs}
     return {run_id: " + ".join(sorted(of_run)) for run_id, of_run in learnt_from.items() if of_run}
 

@@ -21,10 +21,10 @@ class Selection:
     unread: int
     """Further runs that pass the filters."""
 
-    def group(self) -> Grouping:
-        """Sort the runs into groups."""
+    def group(self, anonymous: bool) -> Grouping:
+        """Sort the runs into groups, whose names hold no ids if they are to be anonymous."""
         needed = sorted({run_id for run in self.runs for run_id in run.needs})
-        models = name_models(self.runs, read_configs(self.db, needed) if needed else {})
+        models = name_models(self.runs, read_configs(self.db, needed) if needed else {}, anonymous)
         return group_runs(self.runs, self.memory.variants(self.db, self.runs), models)
 
 

@@ -8,9 +8,14 @@ import zipfile
 
 import pytest
 from live_api import Service, problem_fields
+from store_cases import claim_next, order, step
 from store_samples import SampleSize, fill_store
 
 from backend.figures.drawing import Drawing
+from backend.store.launches import launch
+from backend.store.metrics import MetricPoint, append_metrics
+from backend.store.outcomes import Succeeded
+from backend.store.queue import finish
 
 SIZE = SampleSize(tasks=("FetchPush",), methods=("her", "ddpg"), seeds=3, epochs=4)
 
@@ -84,6 +89,44 @@ def test_a_bundle_is_an_archive_with_every_config(compared: Service, monkeypatch
     assert {(drawn.log_x, drawn.log_y) for drawn in asked} == {(True, True)}
     with zipfile.ZipFile(io.BytesIO(answer.content)) as archive:
         assert sum(name.startswith("configs/") for name in archive.namelist()) == 6
+
+
+@pytest.fixture
+def with_models(service: Service, monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Let runs that differ in nothing but their locomotion model be compared; return the ids of all runs."""
+    monkeypatch.setattr(
+        "backend.figures.bundle.draw_apart", lambda drawings: [repr(drawn).encode() for drawn in drawings]
+    )
+    db = service.database
+    models = [launch(db, order(phase="locomotion", seeds=(seed,)))[0] for seed in (1, 2)]
+    for _ in models:
+        finish(db, claim_next(db), Succeeded(1.0))
+    robots = [launch(db, order(method="her-sldr", locomotion=model))[0] for model in models]
+    for _ in robots:
+        append_metrics(db, claim_next(db), [MetricPoint(step(1), {"test/success_rate": 0.5})])
+    return [*models, *robots]
+
+
+def test_an_anonymous_bundle_numbers_locomotion_models(service: Service, with_models: list[str]):
+    files = files_of_bundle(service, anonymous=True)
+    tables = "\n".join([*files, *(text for name, text in files.items() if not name.startswith("figures/"))])
+    assert [run_id for run_id in with_models if run_id in tables] == []
+    assert "locomotion 1" in tables
+    assert "locomotion 2" in tables
+    drawn = files["figures/best.svg"]
+    assert [model for model in with_models[:2] if model in drawn] == []
+
+
+def test_a_bundle_with_names_keeps_those_of_models(service: Service, with_models: list[str]):
+    files_of_bundle(service, anonymous=True)
+    files = files_of_bundle(service, anonymous=False)
+    assert [model for model in with_models[:2] if f"locomotion {model}" not in files["data/curves.csv"]] == []
+
+
+def files_of_bundle(service: Service, anonymous: bool) -> dict[str, str]:
+    answer = service.client.get("/api/compare/bundle.zip", params={"anonymous": anonymous})
+    with zipfile.ZipFile(io.BytesIO(answer.content)) as archive:
+        return {name: archive.read(name).decode() for name in archive.namelist()}
 
 
 def test_configs_are_compared(compared: Service):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Query
@@ -63,6 +64,7 @@ def get_bundle(
     anonymous: Annotated[bool, Query(description="Whether to leave out what tells who made it, and where.")] = False,
 ) -> Response:
     """Send figures, numbers, configs, versions, seeds and references in one archive."""
+    view = replace(view, anonymous=anonymous)
     curves = compare_curves(store, memory, choice, view)
     run_ids = [member.run_id for panel in curves.panels for curve in panel.curves for member in curve.members]
     best = compare_best(store, memory, choice, view)
