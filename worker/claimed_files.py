@@ -8,7 +8,6 @@ since. Else it is at least as new as what the list has.
 from __future__ import annotations
 
 import logging
-import os
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -16,10 +15,13 @@ from backend.store.attempts import AttemptRow, list_attempts
 from backend.store.blocks import get_blocks, read_block_list
 from backend.store.claims import Claim
 from backend.store.database import Database
+from backend.store.errors import FileGone
 from backend.store.files import LOG_FILE, REPLAY_FILE, REPLAY_LIST, FileRow, list_files
 from backend.store.outcomes import CHECKPOINT_KIND
 from backend.store.settings import Settings
 from backend.store.storage import FileStorage, SharedPlace
+from sldr_core.disk import write_atomically
+from sldr_core.errors import BadFile
 from worker.file_keeper import FileKeeper
 from worker.patience import FILES_PATIENCE_S, insist
 
@@ -75,14 +77,16 @@ def _last_attempt(directory: Path, attempts: Sequence[AttemptRow]) -> int:
     signed = directory / ATTEMPT_FILE
     if not signed.exists() or not any((directory / name).is_file() for name in CHECKPOINT_FILES):
         return 0
-    fence = int(signed.read_text())
-    return next((attempt.attempt for attempt in attempts if attempt.fence == fence), 0)
+    # As text: a directory whose signature is damaged was signed by none of them.
+    fence = signed.read_text(errors="replace")
+    return next((attempt.attempt for attempt in attempts if str(attempt.fence) == fence), 0)
 
 
 def _sign(directory: Path, fence: int) -> None:
-    temporary = directory / f"{ATTEMPT_FILE}.{os.getpid()}.tmp"
-    temporary.write_text(str(fence))
-    temporary.rename(directory / ATTEMPT_FILE)
+    def write(path: Path) -> None:
+        path.write_text(str(fence))
+
+    write_atomically(directory / ATTEMPT_FILE, write)
 
 
 def _leave_old(directory: Path) -> None:
@@ -99,11 +103,15 @@ def _bring_replay(shared: SharedPlace, storage: FileStorage, rows: list[FileRow]
 
 
 def _bring_log(storage: FileStorage, rows: list[FileRow], directory: Path) -> None:
-    """Go on in the log of the attempts elsewhere."""
+    """Go on in the log of the attempts elsewhere; a training needs it not, so without it the log begins here."""
     found = next((row for row in rows if row.name == LOG_FILE), None)
     if found is None:
         return
-    earlier = insist(lambda: storage.bring(found), patience_s=FILES_PATIENCE_S).read_bytes()
+    try:
+        earlier = insist(lambda: storage.bring(found), patience_s=FILES_PATIENCE_S).read_bytes()
+    except (FileGone, BadFile) as err:
+        log.warning("What earlier attempts have said on other machines is lost; their points are not. %s", err)
+        return
     # In place, because this process writes to the end of that very file.
     with (directory / LOG_FILE).open("r+b" if (directory / LOG_FILE).exists() else "wb") as file:
         file.write(earlier)

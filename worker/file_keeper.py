@@ -8,6 +8,7 @@ last, the pair that other machines find can be resumed from.
 from __future__ import annotations
 
 import logging
+import shutil
 from collections.abc import Collection
 from pathlib import Path
 
@@ -51,10 +52,15 @@ class FileKeeper:
         """Let other machines read the run's log. A run must not fail for that, so it is tried once."""
         if self._storage.shared is None or not path.is_file():
             return
+        # A copy, because the log itself may grow between its checksum and its upload.
+        copy = path.with_stem(f"{path.stem}-sent")
         try:
-            self._keep(LOG_FILE, "log", path, patience_s=0.0)
-        except FilesUnavailable as err:
+            shutil.copyfile(path, copy)
+            self._keep(LOG_FILE, "log", copy, patience_s=0.0)
+        except (FilesUnavailable, OSError) as err:
             log.warning("The log stays on this machine: %s", err)
+        finally:
+            copy.unlink(missing_ok=True)
 
     def keep_episodes(self, test: RecordedTest, kept_epochs: Collection[int]) -> None:
         """List the episodes whose file is kept already, and drop those of earlier tests that are not to stay.

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 import torch
+from two_machines import begin, hand_over, next_claim, save, write
 
 from backend.store import files
 from backend.store.backups.make import make_backup
@@ -19,15 +19,15 @@ from backend.store.errors import FilesUnavailable, StaleFence
 from backend.store.files import find_file, list_files
 from backend.store.launches import LaunchOrder, launch
 from backend.store.metrics import read_metrics
-from backend.store.outcomes import CHECKPOINT_KIND, HandedBack, Succeeded
-from backend.store.queue import claim, finish
+from backend.store.outcomes import CHECKPOINT_KIND, Succeeded
+from backend.store.queue import finish
 from backend.store.settings import Settings
 from backend.store.storage import FileStorage, SharedPlace
 from sldr_core.records import Step
 from sldr_core.training import DirectoryRecorder, train
 from sldr_core.training.checkpoint import KIND
 from sldr_core.training.files import CHECKPOINT_FILE, NEWEST_POLICY_FILE, PREVIOUS_CHECKPOINT_FILE, REPLAY_FILE
-from worker.claimed_files import CHECKPOINT_FILES, bring_claimed_run, send_log
+from worker.claimed_files import CHECKPOINT_FILES
 from worker.file_keeper import FileKeeper
 from worker.locomotion_files import find_locomotion_models
 from worker.recorder import StoreRecorder
@@ -48,57 +48,6 @@ class DyingRecorder(StoreRecorder):
         if step.cycle > KILLED_AT:
             raise PowerCut
         super().log(step, metrics)
-
-
-@pytest.fixture
-def here(settings: Settings, tmp_path: Path) -> Settings:
-    """Return a machine that shares its files."""
-    return replace(settings, files_url=f"file://{tmp_path}/shared")
-
-
-@pytest.fixture
-def there(here: Settings, tmp_path: Path) -> Settings:
-    """Return another one."""
-    return replace(here, home=tmp_path / "there")
-
-
-@pytest.fixture
-def first(db: Database) -> Claim:
-    """Return a claimed locomotion run that another one waits for."""
-    launch(db, LaunchOrder("FetchPush", "manipulation", "her-sldr", [0], "smoke"))
-    return next_claim(db)
-
-
-def next_claim(db: Database) -> Claim:
-    claimed = claim(db, "worker-1")
-    assert claimed is not None
-    return claimed
-
-
-def hand_over(db: Database, held: Claim) -> Claim:
-    """End an attempt and claim its run again."""
-    finish(db, held, HandedBack("Its worker was asked to end."))
-    return next_claim(db)
-
-
-def begin(
-    db: Database, settings: Settings, held: Claim, recorder: type[StoreRecorder] = StoreRecorder
-) -> StoreRecorder:
-    """Do what a child does before it trains."""
-    settings.run_directory(held.run_id).mkdir(parents=True, exist_ok=True)
-    bring_claimed_run(db, settings, held)
-    return recorder(db, settings, held, lambda: None)
-
-
-def save(db: Database, settings: Settings, held: Claim, content: bytes, name: str = CHECKPOINT_FILE) -> None:
-    """Save a file as a training would, after episodes were stored."""
-    with begin(db, settings, held) as recorder:
-        (recorder.directory / REPLAY_FILE).write_bytes(content * 2)
-        recorder.save_file(name, KIND if name == CHECKPOINT_FILE else "policy", lambda path: _write(path, content))
-
-
-def _write(path: Path, content: bytes) -> None:
-    path.write_bytes(content)
 
 
 def tensors(path: Path) -> Iterator[torch.Tensor]:
@@ -217,7 +166,7 @@ def test_an_attempt_that_is_over_spoils_nothing(db: Database, here: Settings, th
     save(db, there, hand_over(db, first), b"of the second")
 
     with pytest.raises(StaleFence):
-        late.save_file(CHECKPOINT_FILE, KIND, lambda path: _write(path, b"late"))
+        late.save_file(CHECKPOINT_FILE, KIND, lambda path: write(path, b"late"))
 
     row = find_file(db, first.run_id, CHECKPOINT_FILE)
     assert b"".join(FileStorage(here).read(row)) == b"of the second"
@@ -232,21 +181,6 @@ def test_a_model_trained_elsewhere_is_fetched(db: Database, here: Settings, ther
 
     assert path.is_relative_to(there.home)
     assert path.read_bytes() == b"weights"
-
-
-def test_the_log_goes_on_where_the_run_goes_on(db: Database, here: Settings, there: Settings, first: Claim) -> None:
-    save(db, here, first, b"stored")
-    (here.run_directory(first.run_id) / "log.txt").write_text("said here\n")
-    send_log(db, here, first)
-    second = hand_over(db, first)
-    log = there.run_directory(first.run_id) / "log.txt"
-    log.parent.mkdir(parents=True)
-
-    with log.open("a") as written_by_the_child:
-        begin(db, there, second)
-        written_by_the_child.write("said there\n")
-
-    assert log.read_text() == "said here\nsaid there\n"
 
 
 def test_a_place_out_of_reach_is_trouble_that_may_pass(
