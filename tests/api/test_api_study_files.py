@@ -12,6 +12,7 @@ import httpx
 import pytest
 from live_api import Service
 from other_processes import wait_until
+from size_limit import no_file_longer_than
 from store_engines import SqliteStores
 from study_file_cases import members_of, trained_study
 
@@ -82,6 +83,15 @@ def test_a_body_that_is_too_long_is_not_read_on(client: httpx.Client, monkeypatc
     monkeypatch.setattr(study_files, "LARGEST_STUDY_FILE", 1000)
 
     assert upload(client, b"0" * 1001).status_code == 413
+
+
+def test_an_upload_to_a_full_disk_is_told_in_a_sentence(client: httpx.Client, settings: Settings) -> None:
+    with no_file_longer_than(8 * 2**20):
+        answer = upload(client, b"0" * 12 * 2**20)
+
+    assert answer.status_code == 422
+    assert "There is no room for the uploaded file" in answer.json()["problems"][0]["message"]
+    assert leftovers(settings.home) == []
 
 
 def test_a_study_that_is_not_there_cannot_be_taken_along(client: httpx.Client) -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from size_limit import no_file_longer_than
 from sqlalchemy import select
 from store_cases import claim_next, order, step
 from store_engines import Stores
@@ -31,10 +32,12 @@ from backend.store.tables import metadata
 from backend.store.webhooks import add_webhook, plan_deliveries
 from backend.store.workers import register_worker
 from backend.webhooks.messages import body_of
-from sldr_core.errors import BadFile
+from sldr_core.errors import BadFile, DiskTooFull
 
 SETTLED = {"runs", "attempts", "run_events", "run_files", "workers", "viewer_hosts", "viewer_sessions"}
 """Tables whose rows a restore may change, so that nothing is in anybody's hands."""
+LARGE = 3 * 2**20
+"""Length of a file that does not fit; the store itself is smaller [bytes]."""
 
 
 def silent(sentence: str) -> None:
@@ -89,6 +92,17 @@ def filled(db: Database, settings: Settings) -> Claim:
     (settings.run_directory(running) / REPLAY_FILE).write_bytes(b"episodes")
     (settings.run_directory(running) / "log.txt").write_text("said\n")
     return second
+
+
+def kill_restore(settings: Settings, run_id: str) -> None:
+    """Leave a data directory as a restore that was killed while it copied files."""
+    settings.runs_directory.rename(settings.home / ".runs.replaced")
+    settings.run_directory(run_id).mkdir(parents=True)
+    (settings.run_directory(run_id) / "policy-best.pt").write_bytes(b"half of it")
+
+
+def policy_of(settings: Settings, held: Claim) -> bytes:
+    return (settings.run_directory(held.run_id) / "policy-best.pt").read_bytes()
 
 
 @pytest.fixture(params=["sqlite", "postgresql"])
@@ -185,6 +199,47 @@ class TestOnOneEngine:
             backup(settings, tmp_path / "kept")
         assert backup(settings, tmp_path / "kept", overwrite=True).runs == 3
         assert sorted(path.name for path in tmp_path.iterdir() if "kept" in path.name) == ["kept"]
+
+    @pytest.mark.parametrize(
+        ("limit", "name"), [(LARGE // 2, "kept"), (LARGE + 2**16, "kept.tar")], ids=["copy", "pack"]
+    )
+    def test_a_backup_that_does_not_fit_is_told_in_a_sentence_and_leaves_nothing(
+        self, db: Database, filled: Claim, settings: Settings, tmp_path: Path, limit: int, name: str
+    ) -> None:
+        write(db, settings, filled, "policy-latest.pt", b"0" * LARGE)
+
+        with no_file_longer_than(limit), pytest.raises(DiskTooFull, match=f"no room for the backup {name} in"):
+            backup(settings, tmp_path / name)
+        assert [path.name for path in tmp_path.iterdir() if "kept" in path.name] == []
+
+    def test_a_backup_that_was_killed_while_it_replaced_another_is_no_hindrance(
+        self, settings: Settings, tmp_path: Path
+    ) -> None:
+        backup(settings, tmp_path / "kept")
+        (tmp_path / ".kept.replaced" / "runs").mkdir(parents=True)
+
+        backup(settings, tmp_path / "kept", overwrite=True)
+        assert sorted(path.name for path in tmp_path.iterdir() if "kept" in path.name) == ["kept"]
+
+    def test_a_restore_that_was_killed_is_made_again(self, filled: Claim, settings: Settings, tmp_path: Path) -> None:
+        backup(settings, tmp_path / "kept")
+        kill_restore(settings, filled.run_id)
+
+        assert restore(settings, tmp_path / "kept", overwrite=True).runs == 3
+        assert policy_of(settings, filled) == b"best of the second"
+        assert [path.name for path in settings.home.iterdir() if path.name.startswith(".runs")] == []
+
+    def test_a_restore_that_does_not_fit_brings_back_what_a_killed_one_had_set_aside(
+        self, db: Database, filled: Claim, settings: Settings, tmp_path: Path
+    ) -> None:
+        write(db, settings, filled, "policy-latest.pt", b"0" * LARGE)
+        backup(settings, tmp_path / "kept")
+        write(db, settings, filled, "policy-best.pt", b"best since then")
+        kill_restore(settings, filled.run_id)
+
+        with no_file_longer_than(LARGE // 2), pytest.raises(DiskTooFull, match="no room for what is restored"):
+            restore(settings, tmp_path / "kept", overwrite=True)
+        assert policy_of(settings, filled) == b"best since then"
 
     def test_what_is_no_backup_is_never_replaced(self, settings: Settings, tmp_path: Path) -> None:
         (tmp_path / "thesis").mkdir()

@@ -16,6 +16,7 @@ from backend.api.dependencies import ServiceSettings, Store
 from backend.api.errors import ApiError, problem_responses
 from backend.api.schemas import Strict
 from backend.samples import sample_studies
+from backend.store.full_disk import explain_no_room
 from backend.store.study_files.packing import pack_study
 from backend.store.study_files.placing import LARGEST_STUDY_FILE, Imported, import_study
 
@@ -80,8 +81,9 @@ def open_sample_studies(store: Store, settings: ServiceSettings) -> SampleImport
 @needs("operator")
 async def upload_study(request: Request, store: Store, settings: ServiceSettings) -> StudyImport:
     """Take in a study file; the same file twice is the same study. It is treated as if it came from anyone."""
-    # Beside the data, where there has to be room for it anyway.
-    with tempfile.TemporaryFile(dir=settings.home, prefix=".upload-") as file:
+    # Beside the data, where there has to be room for it anyway. What is still held back is written at the file's end.
+    no_room = explain_no_room("the uploaded file", settings.home)
+    with no_room, tempfile.TemporaryFile(dir=settings.home, prefix=".upload-") as file:
         await _receive(request, file)
         imported = await run_in_threadpool(import_study, store, settings, file, "The uploaded file")
     return _answer(imported)

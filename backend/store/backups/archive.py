@@ -22,6 +22,7 @@ from tempfile import TemporaryDirectory
 from typing import Literal
 
 from backend.store.errors import WouldOverwrite
+from backend.store.full_disk import explain_no_room
 from backend.store.settings import Settings, sqlite_url
 from backend.store.storage import checksum
 from sldr_core.errors import BadFile
@@ -100,19 +101,22 @@ def put_in_place(stage: Path, target: Path) -> None:
     mode = TAR_SUFFIXES.get(target.suffix)
     finished = stage if mode is None else _pack(stage, mode)
     os.sync()
+    replaced = target.with_name(f".{target.name}.replaced")
     if target.is_dir():
-        replaced = target.with_name(f".{target.name}.replaced")
+        shutil.rmtree(replaced, ignore_errors=True)  # of a backup that was broken off at this point
         target.rename(replaced)
-        finished.rename(target)
-        shutil.rmtree(replaced)
-    else:
-        finished.rename(target)
+    finished.rename(target)
+    shutil.rmtree(replaced, ignore_errors=True)
 
 
 def _pack(stage: Path, mode: TarMode) -> Path:
     packed = stage.with_name(f"{stage.name}.tar")
-    with tarfile.open(packed, mode) as tar:
-        tar.add(stage, arcname=".")
+    try:
+        with tarfile.open(packed, mode) as tar:
+            tar.add(stage, arcname=".")
+    except BaseException:
+        packed.unlink(missing_ok=True)
+        raise
     return packed
 
 
@@ -125,6 +129,7 @@ def open_archive(source: Path, scratch: Path) -> Generator[Path]:
 
     Raises:
         BadFile: there is no backup, or it cannot be unpacked.
+        DiskTooFull: there is no room to unpack it.
     """
     if source.is_dir():
         yield source
@@ -133,7 +138,7 @@ def open_archive(source: Path, scratch: Path) -> Generator[Path]:
         raise BadFile(f"There is no backup {source}; give the file or directory that `sldr backup` has made.")
     with TemporaryDirectory(prefix=".unpacked-", dir=scratch) as name:
         try:
-            with tarfile.open(source) as tar:
+            with explain_no_room(f"what {source} holds", scratch), tarfile.open(source) as tar:
                 tar.extractall(name, filter="data")
         except (tarfile.TarError, EOFError, OSError) as err:
             raise BadFile(f"{source} cannot be unpacked ({err}); it is no backup, or not whole.") from err

@@ -33,6 +33,7 @@ from backend.store.database import Database, open_database
 from backend.store.engines import parse_address
 from backend.store.errors import FileGone, Refused
 from backend.store.files import LOG_FILE, FileRow
+from backend.store.full_disk import explain_no_room
 from backend.store.inspection import inspect_store
 from backend.store.settings import Settings
 from backend.store.states import RunState
@@ -80,8 +81,11 @@ def make_backup(settings: Settings, target: Path, overwrite: bool, tell: Tell) -
     stage.mkdir()
     db = open_database(settings)
     try:
-        report = _fill(db, settings, stage, target, tell)
-        put_in_place(stage, target)
+        states, rows = _read_files(db)
+        _check_disk(stage, rows)
+        with explain_no_room(f"the backup {target.name}", target.parent):
+            report = _fill(db, settings, stage, target, states, rows, tell)
+            put_in_place(stage, target)
     finally:
         db.close()
         shutil.rmtree(stage, ignore_errors=True)
@@ -97,10 +101,16 @@ def _check_revision(settings: Settings) -> None:
         )
 
 
-def _fill(db: Database, settings: Settings, stage: Path, target: Path, tell: Tell) -> BackupReport:
+def _fill(
+    db: Database,
+    settings: Settings,
+    stage: Path,
+    target: Path,
+    states: dict[str, RunState],
+    rows: list[FileRow],
+    tell: Tell,
+) -> BackupReport:
     copier = FileCopier(db, settings, stage)
-    states, rows = _read_files(db)
-    _check_disk(stage, rows)
     left_out: dict[tuple[str, str], str] = {}
     for number, row in enumerate(rows, start=1):
         tell(f"Files: {number} of {len(rows)}.")

@@ -21,6 +21,7 @@ from backend.store.backups.placing import FilePlacer
 from backend.store.backups.rows import Tell, copy_rows, count_rows, delete_rows
 from backend.store.database import Database, current_time, open_database
 from backend.store.errors import WouldOverwrite
+from backend.store.full_disk import explain_no_room
 from backend.store.outcomes import HandedBack, end_attempt
 from backend.store.settings import Settings
 from backend.store.states import RunState
@@ -64,6 +65,7 @@ def restore_backup(settings: Settings, source: Path, overwrite: bool, tell: Tell
 
     Raises:
         BadFile: it is no whole backup, or is damaged.
+        DiskTooFull: it does not fit; the store is what it was.
         StoreTooNew: a later version of this program has made it.
         StoreUnavailable: store or shared place cannot be used just now.
         WouldOverwrite: something is there, or a worker is at work.
@@ -79,7 +81,8 @@ def restore_backup(settings: Settings, source: Path, overwrite: bool, tell: Tell
             shutil.copyfile(archive / STORE_FILE, Path(name) / STORE_FILE)
             archived = open_database(store_settings(Path(name)))
             try:
-                return _restore(db, settings, archived, archive, contents, tell)
+                with explain_no_room("what is restored", settings.home):
+                    return _restore(db, settings, archived, archive, contents, tell)
             finally:
                 archived.close()
     finally:
@@ -169,7 +172,10 @@ def _place_files(archived: Database, placer: FilePlacer, tell: Tell) -> None:
 @contextmanager
 def _set_aside(directory: Path) -> Generator[None]:
     """Keep what a directory holds out of the way; bring it back if the block fails, else remove it."""
-    aside = directory.with_name(f".{directory.name}.replaced")
+    aside, done = (directory.with_name(f".{directory.name}.{word}") for word in ("replaced", "removed"))
+    shutil.rmtree(done, ignore_errors=True)  # of a restore that was killed while it tidied up
+    if aside.is_dir():
+        _bring_back(aside, directory)
     if directory.is_dir():
         directory.rename(aside)
     try:
@@ -179,4 +185,15 @@ def _set_aside(directory: Path) -> Generator[None]:
         if aside.is_dir():
             aside.rename(directory)
         raise
-    shutil.rmtree(aside, ignore_errors=True)
+    if aside.is_dir():
+        aside.rename(done)
+        shutil.rmtree(done, ignore_errors=True)
+
+
+def _bring_back(aside: Path, directory: Path) -> None:
+    """Undo what a restore that was killed has done to a directory: the rows that were there tell of these files."""
+    directory.mkdir(exist_ok=True)
+    for kept in aside.iterdir():
+        shutil.rmtree(directory / kept.name, ignore_errors=True)
+        kept.rename(directory / kept.name)
+    aside.rmdir()

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from backend.store.database import LAUNCH_TURN, Database, current_time, take_turn
+from backend.store.full_disk import explain_no_room
 from backend.store.settings import Settings
 from backend.store.storage import FileStorage
 from backend.store.study_files.archive import HostileArchive
@@ -57,7 +58,7 @@ def import_study(db: Database, settings: Settings, source: Path | BinaryIO, call
         DiskTooFull: there is no room for it.
         FilesUnavailable: the shared place cannot be written just now.
     """
-    with HostileArchive(source, called) as archive:
+    with HostileArchive(source, called) as archive, explain_no_room("the study", settings.home):
         rows = read_study(archive, called)
         # Of two imports of the same file, one would remove or replace what the other has just placed.
         with hold_lock(settings.home / IMPORT_LOCK):
