@@ -6,7 +6,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-MOST = 1_000_000_000
+MOST = 1_000_000_000_000
 """The largest whole number of a setting: far beyond what any training counts to, and products of several stay finite
 as floats, so that time and disk space can be told."""
 

@@ -46,7 +46,7 @@ class Failure:
     """Say which demonstration failed, and by how much."""
 
     index: int
-    """Its number: with the fan's seed, it gives start and goal again."""
+    """Its place in the fan: counted on from the fan's first number, it gives start and goal again with the seed."""
     ending: Ending
     start: tuple[float, ...]
     """Achieved goal at the start, `[G]`."""

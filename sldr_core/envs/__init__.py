@@ -10,8 +10,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import get_args
 
-from sldr_core.config import PHASES, Phase, RewardKind, Robot, TaskSpec, Variant, find_task
+from sldr_core.config import LOCOMOTION_TASKS, PHASES, Phase, RewardKind, Robot, TaskSpec, Variant, find_task
 from sldr_core.envs.contacts import TouchSense
 from sldr_core.envs.envs import Envs, Observation
 from sldr_core.envs.families import EnvOrder, build_fetch_env, build_hand_env, build_stack_env, build_tuple_env
@@ -56,20 +57,30 @@ def make_envs(
         reward: the reward of a step; success is the same with both.
 
     Raises:
-        UnknownName: no such task, phase or reward.
-        InvalidConfig: the task has no such phase, or no such robot.
+        UnknownName: no such task, phase, robot, variant or reward.
+        InvalidConfig: the task has no such phase, or no such robot; or nothing would be simulated.
     """
+    choices = {
+        "variant": (variant, get_args(Variant)),
+        "phase": (phase, PHASES),
+        "robot": (robot, get_args(Robot)),
+        "reward": (reward, REWARDS),
+    }
+    for kind, (name, known) in choices.items():
+        if name not in known:
+            raise UnknownName(kind, name, known)
+    too_low = {name: "has to be 1 or more." for name, n in (("num_envs", num_envs), ("threads", threads)) if n < 1}
+    if too_low:
+        raise InvalidConfig(too_low)
     spec = find_task(task, variant)
-    if phase not in PHASES:
-        raise UnknownName("phase", phase, PHASES)
-    if reward not in REWARDS:
-        raise UnknownName("reward", reward, REWARDS)
     _check(spec, phase, robot)
     parts = FAMILIES[spec.family](EnvOrder(spec, phase, robot, num_envs, threads, testing))
     return Envs(spec=spec, phase=phase, parts=parts, bystander_moves=robot == "random", reward=reward, seed=seed)
 
 
 def _check(spec: TaskSpec, phase: Phase, robot: Robot) -> None:
+    if phase == "manipulation" and spec.name in LOCOMOTION_TASKS:
+        raise InvalidConfig({"task": f"{spec.name} exists for locomotion only; the robot has no task of this name."})
     if phase == "locomotion" and spec.name not in spec.locomotion_tasks:
         learnt_in = " and ".join(spec.locomotion_tasks)
         raise InvalidConfig({"task": f"the objects of {spec.name} learn in {learnt_in}; choose that."})

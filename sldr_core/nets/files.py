@@ -48,12 +48,13 @@ def pack_tensors(content: dict[str, Any]) -> bytes:
     return packed.getvalue()
 
 
-def load_tensors(path: Path, *kinds: str) -> dict[str, Any]:
+def load_tensors(path: Path, *kinds: str, way_out: str = "restore it from a copy or train again") -> dict[str, Any]:
     """Read a file of tensors and plain values.
 
     Args:
         path: the file.
         kinds: what the file may call itself.
+        way_out: what one who finds it damaged can do.
 
     Raises:
         BadFile: it is missing, truncated, corrupt or of another kind.
@@ -65,7 +66,7 @@ def load_tensors(path: Path, *kinds: str) -> dict[str, Any]:
         _check_sums(packed)
         content = torch.load(io.BytesIO(packed), map_location="cpu", weights_only=True)
     except _UNREADABLE as err:
-        raise BadFile(f"{path} is corrupt or no file of ours; restore it from a copy or train again.") from err
+        raise BadFile(f"{path} is corrupt or no file of ours; {way_out}.") from err
     kind = content.get("kind") if isinstance(content, dict) else None
     told = kind if isinstance(kind, str) and kind else "foreign object"
     if told not in kinds:

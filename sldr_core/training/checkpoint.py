@@ -148,7 +148,7 @@ def read_checkpoint(path: Path, config: TrainConfig) -> Kept:
         ForeignCheckpoint: it was made by another config.
         BadFile: the file is corrupt, lacks a part, or has lost its replay file before its training was over.
     """
-    content = load_tensors(path, KIND)
+    content = load_tensors(path, KIND, way_out=START_ANEW)
     if not _is_of(content, config):
         raise ForeignCheckpoint(
             f"{path} was made by another config than this run's; use another directory, or remove it to start anew."

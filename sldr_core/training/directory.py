@@ -25,7 +25,8 @@ class DirectoryRecorder:
     """Keep everything below one directory.
 
     After a resume, lines of cycles that are run again are replaced. A training that goes on from nothing begins with
-    removing what an earlier one has left there, or the two would be taken for one.
+    removing what an earlier one has left there, or the two would be taken for one. One recorder serves one call of
+    `train`: what was asked of it stays asked.
     """
 
     def __init__(self, directory: Path) -> None:
@@ -33,7 +34,7 @@ class DirectoryRecorder:
         self._directory = directory
         self._stop: StopReason | None = None
         self._begun = False
-        self._logged = False
+        self._last_cycle: int | None = None
 
     @property
     def directory(self) -> Path:
@@ -48,9 +49,9 @@ class DirectoryRecorder:
         """
         self._begin()
         path = self._directory / METRICS_FILE
-        if not self._logged:
+        if self._last_cycle is None or step.cycle <= self._last_cycle:
             _drop_from(path, step.cycle)
-            self._logged = True
+        self._last_cycle = step.cycle
         with explain_full_disk(path), path.open("a") as file:
             file.write(json.dumps({**asdict(step), "metrics": dict(metrics)}) + "\n")
 

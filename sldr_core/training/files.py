@@ -23,7 +23,8 @@ BEST_POLICY_FILE = "policy-best.pt"
 LOCOMOTION_FILE = "locomotion.pt"
 
 KEPT_POLICIES = 12
-"""Policies that are kept while a training goes on, evenly spread over its epochs: one can see it learn afterwards."""
+"""Policies that are kept while a training goes on, evenly spread over its epochs, beside that of the first epoch:
+one can see it learn afterwards."""
 
 METRICS_LINE = 8192
 """More than the line of a cycle ever takes [bytes]."""
@@ -39,7 +40,7 @@ def kept_policy_file(epoch: int) -> str:
 
 def keeps_policy(epoch: int, epochs: int) -> bool:
     """Tell whether the policy of an epoch, from 1, is kept in a training of so many: the first, then evenly."""
-    return epoch == 1 or epoch % -(-epochs // KEPT_POLICIES) == 0
+    return epoch == 1 or epoch % _kept_every(epochs) == 0
 
 
 def is_product(name: str) -> bool:
@@ -84,7 +85,12 @@ def planned_sizes(
 
 
 def _kept_policies(epochs: int) -> list[int]:
-    return [epoch for epoch in range(1, epochs + 1) if keeps_policy(epoch, epochs)]
+    every = _kept_every(epochs)
+    return sorted({1, *range(every, epochs + 1, every)})
+
+
+def _kept_every(epochs: int) -> int:
+    return -(-epochs // KEPT_POLICIES)
 
 
 def _bytes_in(value: Any) -> int:

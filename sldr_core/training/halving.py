@@ -41,5 +41,8 @@ def halve(nets: dict[str, Tensor], source: Path) -> dict[str, Tensor]:
     halved = {name: value if name.startswith(NORMALIZERS) else value.half() for name, value in nets.items()}
     for name, value in halved.items():
         if not bool(value.isfinite().all()):
-            raise BadFile(f"{source} cannot be kept in half precision: {name} holds a number that is too large.")
+            raise BadFile(
+                f"{source} cannot be kept in half precision: {name} holds a number that is too large; take another "
+                "run's, or one that was trained with a lower agent.learning_rate."
+            )
     return halved

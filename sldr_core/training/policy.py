@@ -31,7 +31,7 @@ class Policy:
     Attributes:
         config: what was trained.
         epoch: epochs trained when it was saved; None of a checkpoint or locomotion model.
-        success_rate: success of its test; None of a checkpoint or locomotion model.
+        success_rate: success of the test that ended its epoch; None of a checkpoint or locomotion model.
     """
 
     config: TrainConfig
@@ -81,7 +81,10 @@ def load_policy(path: Path, device: str = "cpu") -> Policy:
         actor = Mlp((view.size, *config.agent.hidden_sizes, actions), torch.Generator(), squash=True)
         actor.load_state_dict(actor_state)
     except (*UNFIT, InvalidConfig) as err:
-        raise BadFile(f"{path} holds no usable policy ({one_line(err)}).") from err
+        raise BadFile(
+            f"{path} holds no usable policy ({one_line(err)}); give a policy, a checkpoint or "
+            "a locomotion model of a run."
+        ) from err
     return Policy(config, content.get("epoch"), content.get("success_rate"), normalizer.to(device), actor.to(device))
 
 

@@ -63,6 +63,10 @@ class CrashingRecorder(DirectoryRecorder):
 
     def __init__(self, directory: Path, cycle: int) -> None:
         super().__init__(directory)
+        self._cycle: int | None = cycle
+
+    def crash_after(self, cycle: int | None) -> None:
+        """Let it be the line of another cycle, or none."""
         self._cycle = cycle
 
     def log(self, step: Step, metrics: Mapping[str, float]) -> None:

@@ -72,6 +72,17 @@ def test_a_training_goes_on_from_the_previous_checkpoint_to_the_same_bits(
         assert (stopped / "checkpoint-damaged.pt").read_bytes() == damaged
 
 
+def test_a_recorder_that_is_used_again_has_no_line_twice(tmp_path: Path, uninterrupted: Path) -> None:
+    recorder = CrashingRecorder(tmp_path, 13)
+    with pytest.raises(ConnectionAbortedError):
+        train(short_config(), recorder)
+    recorder.crash_after(None)
+
+    train(short_config(), recorder)
+
+    assert_same_training(tmp_path, uninterrupted)
+
+
 def test_the_replay_file_serves_the_previous_checkpoint_until_the_last_moment(
     tmp_path: Path,
 ) -> None:
@@ -106,7 +117,9 @@ def test_two_damaged_checkpoints_are_told_and_nothing_is_touched(stopped: Path) 
         (stopped / name).write_bytes(b"damaged")
     before = contents_of(stopped)
 
-    with pytest.raises(BadFile, match=r"checkpoint\.pt is corrupt or no file of ours"):
+    with pytest.raises(
+        BadFile, match=r"checkpoint\.pt is corrupt or no file of ours; remove every checkpoint of this directory"
+    ):
         run(short_config(), stopped)
 
     assert contents_of(stopped) == before

@@ -173,7 +173,7 @@ def test_a_gpu_that_is_not_there_is_named_with_what_to_choose(tmp_path: Path, mo
 
 
 def test_a_replay_that_no_disk_can_hold_is_refused_before_anything_is_written(tmp_path: Path) -> None:
-    config = make_config("FetchPush", "locomotion", "her", 0, "smoke", {"replay": {"capacity": 10**13}})
+    config = make_config("FetchPush", "locomotion", "her", 0, "smoke", {"replay": {"capacity": 10**12}})
 
     with pytest.raises(
         DiskTooFull, match=r"for replay\.bin\) and the disk has .* free; lower replay\.capacity or free"

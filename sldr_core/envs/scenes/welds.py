@@ -30,7 +30,10 @@ def load_model(model_file: str) -> mujoco.MjSpec:
     # Found without being imported: importing it costs a second and prints warnings about other environments.
     package = find_spec("gymnasium_robotics")
     if package is None or package.submodule_search_locations is None:
-        raise BadFile("The package gymnasium-robotics, which ships the scenes, is not installed.")
+        raise BadFile(
+            "The package gymnasium-robotics, which ships the scenes, is not installed; install it at the version that "
+            "requirements.lock names."
+        )
     path = Path(package.submodule_search_locations[0]) / "envs" / "assets" / model_file
     return mujoco.MjSpec.from_file(str(path))
 
