@@ -26,7 +26,7 @@ export const ACTION_NAMES: Record<Action, string> = {
 
 /** What an action does, in one sentence. */
 export const ACTION_MEANING: Record<Action, string> = {
-  resume: 'Let it go on from its checkpoint.',
+  resume: 'Let it go on, from its checkpoint if it has one.',
   release: 'Start it although its locomotion model missed the gate.',
   retry: 'Try it again, from its last checkpoint.',
   pause: 'Save a checkpoint at the end of the cycle and free the slot.',

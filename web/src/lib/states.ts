@@ -23,7 +23,7 @@ export const STATE_MEANING: Record<RunState, string> = {
   queued: 'Waits for a free worker.',
   running: 'A worker trains it.',
   paused: 'Held until a person resumes it.',
-  succeeded: 'Trained to its end.',
+  succeeded: 'Trained to its end, here or before it was brought in.',
   failed: 'Ended by an error.',
   cancelled: 'Ended by a person.',
 };
