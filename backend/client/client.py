@@ -29,7 +29,7 @@ class Client:
         self.url = find_url(url)
         self._connection = Connection(self.url, find_token(token, self.url))
         self.runs = Runs(self._connection)
-        self.studies = Studies(self._connection)
+        self.studies = Studies(self._connection, self.runs)
         self.comparisons = Comparisons(self._connection)
 
     def __enter__(self) -> Client:

@@ -9,7 +9,7 @@ from urllib.parse import quote
 
 from backend.client.connection import Connection
 from backend.client.curves import MetricBatch, Metrics, join_batches
-from backend.client.errors import ClientError
+from backend.client.errors import NotThere, Problem
 from backend.client.records.runs import (
     ActionResult,
     Attempt,
@@ -115,7 +115,7 @@ class Runs:
         on_change: Callable[[Run], None] | None = None,
         poll_s: float = POLL_S,
     ) -> list[Run]:
-        """Wait until each has ended, or cannot start without a person; see `wait_for_runs`."""
+        """Wait until each has ended, or goes no further without a person, as if paused; see `wait_for_runs`."""
         return wait_for_runs(self.get, [_id(run) for run in runs], timeout_s, on_change, poll_s)
 
     def metrics(self, run: Wanted, names: Collection[str] | None = None) -> Metrics:
@@ -147,7 +147,7 @@ class Runs:
         files = {file.name: file for file in self.files(run)}
         if name not in files:
             known = ", ".join(files) or "none yet"
-            raise ClientError(f"Run {_id(run)} has no file '{name}'; it has: {known}.")
+            raise NotThere((Problem(None, f"Run {_id(run)} has no file '{name}'; it has: {known}."),))
         path = Path(target) / name if Path(target).is_dir() else Path(target)
         self._connection.fetch(files[name].url, path, files[name].sha256)
         return path

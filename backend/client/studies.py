@@ -12,7 +12,8 @@ from backend.client.connection import Connection
 from backend.client.errors import StillGoing
 from backend.client.records.runs import ENDED
 from backend.client.records.studies import Study, StudyDetail, StudyOutcome, StudyPreview, StudySpec, Variant
-from backend.client.waiting import POLL_S
+from backend.client.runs import Runs
+from backend.client.waiting import POLL_S, goes_no_further
 
 Wanted = Study | StudyOutcome | str
 """A study, what its launch has answered, or its id."""
@@ -21,8 +22,9 @@ Wanted = Study | StudyOutcome | str
 class Studies:
     """Everything about studies; `client.studies`."""
 
-    def __init__(self, connection: Connection) -> None:
+    def __init__(self, connection: Connection, runs: Runs) -> None:
         self._connection = connection
+        self._runs = runs
 
     def preview(self, spec: StudySpec) -> StudyPreview:
         """Return what launching a study would do and cost; queue nothing.
@@ -80,21 +82,29 @@ class Studies:
         return self._connection.ask(StudyDetail, f"/api/studies/{quote(_id(study), safe='')}")
 
     def wait(self, study: Wanted, timeout_s: float | None = None, poll_s: float = POLL_S) -> StudyDetail:
-        """Wait until every run of a study has ended.
+        """Wait until every run of a study has ended, or goes no further without a person; `has_ended` tells which.
 
         Args:
             timeout_s: how long to wait at most; for ever if None [s].
 
         Raises:
-            StillGoing: not all have ended in time; a run below its gate waits for a person.
+            StillGoing: not all have ended in time.
         """
         give_up_at = None if timeout_s is None else time.monotonic() + timeout_s
-        while not (found := self.get(study)).has_ended:
+        while not self._stands_still(found := self.get(study)):
             if give_up_at is not None and time.monotonic() > give_up_at:
                 going = sum(count for state, count in found.states.items() if state not in ENDED)
                 raise StillGoing(f"After {timeout_s:g} s, {going} runs of study '{found.name}' have not ended.")
             time.sleep(poll_s)
         return found
+
+    def _stands_still(self, study: StudyDetail) -> bool:
+        """Tell whether no run of a study goes on by itself."""
+        every = [*study.locomotion, *(run for cell in study.cells for run in cell.runs)]
+        if any(run.state in ("queued", "running") for run in every):
+            return False
+        blocked = [run.run_id for run in every if run.state == "blocked"]
+        return all(goes_no_further(self._runs.get, self._runs.get(run_id)) for run_id in blocked)
 
 
 def _id(study: Wanted) -> str:

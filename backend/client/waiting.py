@@ -11,8 +11,8 @@ from backend.client.records.runs import Run
 POLL_S = 2.0
 """Between two looks [s]."""
 
-LOST = ("failed", "cancelled")
-"""A run that needs one of these starts only if a person has it tried again."""
+HALTED = ("failed", "cancelled", "paused")
+"""A run that needs one of these starts only if a person has it tried again or resumes it."""
 
 
 def wait_for_runs(
@@ -22,7 +22,10 @@ def wait_for_runs(
     on_change: Callable[[Run], None] | None = None,
     poll_s: float = POLL_S,
 ) -> list[Run]:
-    """Wait until each of the runs has ended, or cannot start without a person; return them in the order given.
+    """Wait until each of the runs has ended, or goes no further without a person; return them in the order given.
+
+    Without a person none goes further that is paused or below its gate, or needs one that has failed, was cancelled or
+    is paused.
 
     Args:
         find: returns the run with an id as it stands now.
@@ -41,7 +44,7 @@ def wait_for_runs(
             if on_change is not None and (run_id not in seen or seen[run_id].state != run.state):
                 on_change(run)
             seen[run_id] = run
-        going = [run_id for run_id in going if not _is_over(find, seen[run_id])]
+        going = [run_id for run_id in going if not goes_no_further(find, seen[run_id])]
         if not going:
             return [seen[run_id] for run_id in run_ids]
         if give_up_at is not None and time.monotonic() > give_up_at:
@@ -49,8 +52,9 @@ def wait_for_runs(
         time.sleep(poll_s)
 
 
-def _is_over(find: Callable[[str], Run], run: Run) -> bool:
-    if run.has_ended or run.is_below_gate:
+def goes_no_further(find: Callable[[str], Run], run: Run) -> bool:
+    """Tell whether a run has ended, or does nothing more until a person lets it go on."""
+    if run.has_ended or run.state == "paused" or run.is_below_gate:
         return True
     needed = run.needs if run.state == "blocked" else []
-    return any(find(needed_id).state in LOST for needed_id in needed)
+    return any(find(needed_id).state in HALTED for needed_id in needed)

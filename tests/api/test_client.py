@@ -108,7 +108,7 @@ def test_files_are_checked_against_their_checksum(client: Client, service: Servi
     with pytest.raises(BadAnswer, match="came damaged"):
         client.runs.download(run_id, "damaged.pt", tmp_path / "out.pt")
     assert not (tmp_path / "out.pt").exists()
-    with pytest.raises(ClientError, match=r"has no file 'policy\.pt'; it has: damaged\.pt, policy-best\.pt"):
+    with pytest.raises(NotThere, match=r"has no file 'policy\.pt'; it has: damaged\.pt, policy-best\.pt"):
         client.runs.download(run_id, "policy.pt")
 
 
@@ -119,6 +119,19 @@ def test_waiting_ends_where_only_a_person_can_go_on(client: Client, service: Ser
     finish(service.database, service.claim(), Failed("It broke.", retry=False))
     states = [run.state for run in client.runs.wait([locomotion, manipulation], timeout_s=60.0)]
     assert states == ["failed", "blocked"]
+
+
+def test_waiting_ends_at_a_paused_run_and_at_what_needs_it(client: Client, service: Service):
+    outcome = client.studies.launch("one", ["FetchPush"], ["her-sldr"], [0], "smoke", locomotion="train")
+    with pytest.raises(StillGoing, match="1 runs of study 'one' have not ended"):
+        client.studies.wait(outcome, timeout_s=0.0, poll_s=0.0)
+    [locomotion] = client.studies.get(outcome).locomotion
+    [manipulation] = client.studies.get(outcome).cells[0].runs
+    assert [result.done for result in client.runs.act("pause", [locomotion.run_id])] == [True]
+    waited = client.runs.wait([locomotion.run_id, manipulation.run_id], timeout_s=60.0)
+    assert [run.state for run in waited] == ["paused", "blocked"]
+    study = client.studies.wait(outcome, timeout_s=60.0)
+    assert (study.has_ended, study.states["blocked"]) == (False, 1)
 
 
 def test_studies_are_launched_and_compared(client: Client, service: Service, tmp_path: Path):
