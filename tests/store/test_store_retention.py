@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import settings as hypothesis_settings
 from hypothesis import strategies as st
-from sqlalchemy import update
+from sqlalchemy import Engine, event, update
 from store_cases import claim_next, claimed_run, order
 
 from backend.store.actions import Action, act
@@ -87,6 +87,30 @@ def test_a_preview_names_everything_and_changes_nothing(db: Database, settings: 
     assert (count, size) == (1, len("episodes-00001.npz") * 100)
     assert share.size == sum(file.size for file in share.files)
     assert (names(directory), list_files(db, run_id)) == before
+
+
+def count_statements(db: Database, settings: Settings) -> int:
+    """Return how many statements a preview asks the store."""
+    asked: list[str] = []
+
+    def note(_conn: object, _cursor: object, statement: str, *_: object) -> None:
+        asked.append(statement)
+
+    event.listen(Engine, "before_cursor_execute", note)
+    try:
+        plan_retention(db, settings, EVERYTHING)
+    finally:
+        event.remove(Engine, "before_cursor_execute", note)
+    return len(asked)
+
+
+def test_a_preview_asks_the_store_no_more_however_many_runs_have_ended(db: Database, settings: Settings):
+    ended(settings, db)
+    of_one = count_statements(db, settings)
+    for _ in range(3):
+        ended(settings, db)
+    assert len(plan_retention(db, settings, EVERYTHING).runs) == 4
+    assert count_statements(db, settings) == of_one
 
 
 def test_what_a_preview_names_goes_and_nothing_else(db: Database, settings: Settings):
