@@ -111,6 +111,20 @@ def test_the_same_file_is_the_same_study(db: Database, settings: Settings, expor
     assert [study.name for study in list_studies(db, 10)] == ["Two methods"]
 
 
+def test_a_study_that_comes_back_leaves_its_name_to_the_one_that_took_it(
+    db: Database, settings: Settings, exported: Path, tmp_path: Path
+) -> None:
+    first = import_study(db, settings, exported, "It")
+    delete_study(db, first.study_id)
+    other = changed(exported, tmp_path / "other.zip", lambda listed: listed["study"].update(note="Another."))
+    second = import_study(db, settings, other, "It")
+
+    import_study(db, settings, exported, "It")
+
+    names = {study.id: study.name for study in list_studies(db, 10)}
+    assert names == {first.study_id: "Two methods (2)", second.study_id: "Two methods"}
+
+
 def test_two_imports_of_the_same_file_at_once_are_one(db: Database, settings: Settings, exported: Path) -> None:
     with ThreadPoolExecutor(4) as pool:
         imports = list(pool.map(lambda _: import_study(db, settings, exported, "It"), range(4)))

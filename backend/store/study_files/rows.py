@@ -65,7 +65,11 @@ def taken_ids(conn: Connection, rows: StudyRows) -> list[str]:
 def revive(conn: Connection, rows: StudyRows) -> None:
     """Bring back what was deleted of a study that is imported again, and let none of its files be removed."""
     conn.execute(delete(file_removals).where(file_removals.c.run_id.in_(list(rows.ids.values()))))
-    conn.execute(update(studies).where(studies.c.id == rows.study_id).values(deleted_at=None))
+    deleted = (studies.c.id == rows.study_id, studies.c.deleted_at.is_not(None))
+    name = conn.execute(select(studies.c.name).where(*deleted)).scalar_one_or_none()
+    if name is not None:
+        # Another study may have taken the name since.
+        conn.execute(update(studies).where(*deleted).values(name=_free_name(conn, name), deleted_at=None))
     conn.execute(update(runs).where(runs.c.id.in_(list(rows.ids.values()))).values(deleted_at=None))
 
 
