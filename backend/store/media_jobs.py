@@ -1,7 +1,7 @@
 """Pictures and videos of runs: ordered by the page or planned by the host, drawn one after the other.
 
 A job's id follows from what is asked for, so the same picture is never drawn twice. A claim raises the job's fence;
-what comes from an older claim is refused.
+what comes from an older claim is refused. A host that ends in good order gives its claim back.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ class MediaJob:
     reason: str | None
     """Why it failed, in one sentence."""
     fence: int
-    """Counts the claims; writes of an older one are refused."""
+    """Counts the claims that were not given back; writes of an older one are refused."""
     lease_until: datetime | None
     created_at: datetime
     ended_at: datetime | None
@@ -121,9 +121,9 @@ def renew_media(db: Database, job: MediaJob, lease_s: float = LEASE_S) -> bool:
 
 
 def release_media(db: Database, job: MediaJob) -> None:
-    """Put a job back that was not drawn to its end."""
+    """Put a job back that was not drawn to its end; whoever does so has not died, and writes nothing more of it."""
     with db.write() as conn:
-        conn.execute(_held(job.id, job.fence).values(state="queued", lease_until=None))
+        conn.execute(_held(job.id, job.fence).values(state="queued", lease_until=None, fence=job.fence - 1))
 
 
 def fail_media(db: Database, job: MediaJob, reason: str) -> bool:

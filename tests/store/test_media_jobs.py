@@ -110,6 +110,24 @@ def test_a_job_that_is_put_back_is_taken_by_the_next(db: Database, order: MediaO
     assert claimed(db).id == order.job_id
 
 
+def test_hosts_that_end_in_good_order_have_not_died(db: Database, order: MediaOrder) -> None:
+    order_media(db, order)
+    for _ in range(MOST_CLAIMS + 1):
+        release_media(db, claimed(db))
+    taken = claimed(db)
+    assert finish_media(db, taken, MADE) is None
+    assert get_media(db, order.job_id).state == "done"
+
+
+def test_a_host_that_lost_its_job_cannot_write_whoever_gives_it_back_meanwhile(db: Database, order: MediaOrder) -> None:
+    order_media(db, order)
+    lost = claimed(db, lease_s=-1.0)
+    release_media(db, claimed(db))
+    assert not renew_media(db, lost)
+    claimed(db)
+    assert not renew_media(db, lost)
+
+
 def test_a_file_that_is_replaced_leaves_its_old_path(db: Database, order: MediaOrder) -> None:
     order_media(db, order)
     finish_media(db, claimed(db), MADE)
