@@ -14,6 +14,7 @@ from backend.store.outcomes import HandedBack, Succeeded
 from backend.store.queue import finish
 from backend.store.run_order import parse_order
 from backend.store.runs import RunFilter, RunRow, get_run, list_runs
+from backend.store.states import RunState
 from backend.store.tables import attempts, runs
 
 START = datetime(2026, 1, 1, tzinfo=UTC)
@@ -56,6 +57,14 @@ def test_of_a_run_that_is_trained_the_page_can_count_on(db: Database) -> None:
     assert trained(get_run(db, run_id)) == (10 * 60.0, minutes(600))
 
 
+def test_an_attempt_without_an_end_of_a_run_that_has_ended_trains_no_longer(db: Database) -> None:
+    (run_id,) = launch(db, order())
+    finish(db, claim_next(db), Succeeded(1.0))
+    put_attempts(db, run_id, (0, 10), (20, None))
+
+    assert trained(get_run(db, run_id)) == (10 * 60.0, None)
+
+
 def test_a_run_that_nobody_has_claimed_was_not_trained(db: Database) -> None:
     (run_id,) = launch(db, order())
 
@@ -68,6 +77,8 @@ def test_runs_are_sorted_by_how_long_they_were_trained(db: Database, descending:
     put_attempts(db, long_ago, (0, 30))
     put_attempts(db, paused, (0, 5), (3000, 3005))
     put_attempts(db, training, (0, None))
+    with db.write() as conn:
+        conn.execute(update(runs).where(runs.c.id == training).values(state=RunState.RUNNING))
 
     rows = list_runs(db, RunFilter(), 10, order=parse_order("duration", descending)).rows
 
