@@ -28,7 +28,10 @@ class Notices(Strict):
     """What has happened, oldest first."""
 
     notices: list[Notice]
-    now: datetime = Field(description="The service's time; ask for what comes after it.")
+    now: datetime = Field(
+        description="The service's time. Ask next for what has happened since a minute before it: it may be written "
+        "down a little later. `event`, `subject` and `occasion` tell what is known already."
+    )
 
 
 class NewWebhook(Strict):

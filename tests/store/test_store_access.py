@@ -92,6 +92,13 @@ def test_a_link_ends(db: Database, ada: Account) -> None:
         invitations.invite(db, "nobody")
 
 
+def test_a_closed_account_gets_no_link_that_would_open_nothing(db: Database) -> None:
+    bob = accounts.create_account(db, "bob", "viewer")
+    accounts.change_account(db, bob.id, accounts.AccountChange(disabled=True))
+    with pytest.raises(Refused, match="'bob' is closed; open it again first"):
+        invitations.invite(db, bob.id)
+
+
 def test_a_new_password_by_link_ends_every_session(db: Database, ada: Account) -> None:
     _, secret = login_sessions.start_session(db, ada.id, "10.0.0.7", "Firefox")
     token, _ = invitations.invite(db, ada.id)

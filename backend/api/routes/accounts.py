@@ -64,7 +64,7 @@ def update_account(account_id: str, wish: AccountUpdate, store: Store) -> Accoun
     return _info(change_account(store, account_id, AccountChange(wish.role, wish.disabled)))
 
 
-@router.post("/accounts/{account_id}/invitation", status_code=201, responses=problem_responses(403, 404, 422))
+@router.post("/accounts/{account_id}/invitation", status_code=201, responses=problem_responses(403, 404, 409, 422))
 @needs("admin")
 def invite_again(account_id: str, store: Store) -> InvitationLink:
     """Make a new one-time link, for a forgotten password too; the present one stays until the link is used."""

@@ -26,10 +26,14 @@ def invite(db: Database, account_id: str) -> tuple[str, datetime]:
 
     Raises:
         NotFound: there is no such account.
+        Refused: it is closed, so that the link would open nothing.
     """
     with db.write() as conn:
-        if conn.execute(select(accounts.c.id).where(accounts.c.id == account_id)).one_or_none() is None:
+        row = conn.execute(select(accounts).where(accounts.c.id == account_id)).one_or_none()
+        if row is None:
             raise NotFound("account", account_id)
+        if row.disabled_at is not None:
+            raise Refused(f"The account '{row.name}' is closed; open it again first.")
         return _invite(conn, account_id)
 
 

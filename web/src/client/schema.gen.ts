@@ -2747,7 +2747,7 @@ export interface components {
             /**
              * Now
              * Format: date-time
-             * @description The service's time; ask for what comes after it.
+             * @description The service's time. Ask next for what has happened since a minute before it: it may be written down a little later. `event`, `subject` and `occasion` tell what is known already.
              */
             now: string;
         };
@@ -5417,6 +5417,15 @@ export interface operations {
             };
             /** @description It does not exist. */
             404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problems"];
+                };
+            };
+            /** @description Its state does not allow this. */
+            409: {
                 headers: {
                     [name: string]: unknown;
                 };
