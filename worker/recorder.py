@@ -20,7 +20,7 @@ from backend.store.storage import FileStorage
 from sldr_core.disk import write_atomically
 from sldr_core.episodes import KIND as EPISODES_KIND
 from sldr_core.episodes import RecordedTest, episodes_file, remove_episodes, write_episodes
-from sldr_core.errors import TrainingDiverged
+from sldr_core.errors import SldrError, TrainingDiverged
 from sldr_core.records import Step
 from worker.file_keeper import FileKeeper
 from worker.metric_writer import MetricWriter
@@ -157,6 +157,8 @@ class StoreRecorder:
             self.save_file(f"recording-attempt-{self._claim.attempt}.rrd", "recording", write)
         except (StaleFence, StoreUnavailable):
             raise
+        except SldrError as err:
+            log.warning("The Rerun file could not be written: %s", err)
         except Exception:
             # A training must not fail for a copy of what is in the store.
             log.exception("The Rerun file could not be written.")

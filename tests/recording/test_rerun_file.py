@@ -101,14 +101,12 @@ def test_logging_loads_neither_torch_nor_mujoco():
 DIE_WHILE_WRITING = """
 import os, sys
 from pathlib import Path
+from sldr_core import disk
 from worker.recording.content import Recording
 from worker.recording.rerun_file import write_recording
 
-class Death(tuple):
-    def __iter__(self):
-        os._exit(7)
-
-write_recording(Path(sys.argv[1]), Recording("FetchPush", [], {}, log=Death((None,))))
+disk.sync = lambda path: os._exit(7)
+write_recording(Path(sys.argv[1]), Recording("FetchPush", [], {}))
 """
 
 
@@ -118,3 +116,28 @@ def test_what_a_killed_writer_leaves_is_removed_by_the_next_training(tmp_path):
     assert len(list(tmp_path.glob(".*.tmp"))) == 1
     with alone_in(tmp_path):
         assert [path.name for path in tmp_path.iterdir()] == [LOCK_FILE]
+
+
+FULL_DISK = """
+import resource, sys
+from pathlib import Path
+from sldr_core.errors import DiskTooFull
+from worker.recording.content import Recording
+from worker.recording.rerun_file import write_recording
+
+resource.setrlimit(resource.RLIMIT_FSIZE, (100, resource.RLIM_INFINITY))
+try:
+    write_recording(Path(sys.argv[1]), Recording("FetchPush", [], {}))
+except DiskTooFull as err:
+    sys.exit(str(err))
+"""
+FULL_DISK_S = 120.0
+"""What hangs for want of room is found out after this long, also on a busy machine [s]."""
+
+
+def test_a_full_disk_is_told_and_holds_nobody_up(tmp_path):
+    path = tmp_path / "curves.rrd"
+    command = [sys.executable, "-c", FULL_DISK, str(path)]
+    ended = subprocess.run(command, check=False, stderr=subprocess.PIPE, text=True, timeout=FULL_DISK_S)
+    assert (ended.returncode, f"There is no room for {path}" in ended.stderr) == (1, True)
+    assert list(tmp_path.iterdir()) == []

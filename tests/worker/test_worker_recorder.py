@@ -25,7 +25,7 @@ from backend.store.queue import claim, finish
 from backend.store.runs import get_run
 from backend.store.settings import Settings
 from backend.store.tables import runs
-from sldr_core.errors import BadFile, LocomotionMissing, TrainingDiverged
+from sldr_core.errors import BadFile, DiskTooFull, LocomotionMissing, TrainingDiverged
 from sldr_core.records import Step
 from worker.locomotion_files import find_locomotion_models
 from worker.metric_writer import MetricWriter
@@ -303,16 +303,25 @@ def test_curves_of_several_pages_are_put_together(
     )
 
 
+@pytest.mark.parametrize(
+    ("error", "has_trace"), [(RuntimeError("no recording today"), True), (DiskTooFull("no recording today"), False)]
+)
 def test_a_training_does_not_fail_with_its_rerun_file(
-    db: Database, settings: Settings, locomotion_claim: Claim, caplog: pytest.LogCaptureFixture
+    db: Database,
+    settings: Settings,
+    locomotion_claim: Claim,
+    caplog: pytest.LogCaptureFixture,
+    error: Exception,
+    has_trace: bool,
 ) -> None:
     def write(path: Path) -> None:
-        raise RuntimeError("no recording today")
+        raise error
 
     with record(db, settings, locomotion_claim, write) as recorder:
         recorder.log(STEP, {"test/success_rate": 0.75})
 
     assert "no recording today" in caplog.text
+    assert ("Traceback" in caplog.text) == has_trace
 
 
 def test_the_model_of_the_locomotion_run_is_found(db: Database, settings: Settings, locomotion_claim: Claim) -> None:

@@ -36,25 +36,31 @@ def write_recording(path: Path, recording: Recording) -> None:
 
 
 def _write(recording: Recording, path: Path) -> None:
+    # Rerun 0.33 waits for ever, and nothing can end it, where it is to write to a disk that is full.
+    path.write_bytes(_encode(recording))
+
+
+def _encode(recording: Recording) -> bytes:
     try:
-        _fill(recording, path)
+        return _collect(recording)
     finally:
         # Rerun 0.33 ends a stream's threads only here, once nobody holds the stream; a training writes many files.
         bindings.flush_and_cleanup_orphaned_recordings()
 
 
-def _fill(recording: Recording, path: Path) -> None:
+def _collect(recording: Recording) -> bytes:
     stream, layout = rr.RecordingStream(APPLICATION), _lay_out(recording)
     try:
+        content = stream.memory_recording().storage
         storage = layout.memory_recording().storage
-        bindings.save(str(path), default_blueprint=storage, recording=stream.to_native())
+        bindings.send_blueprint(storage, make_active=False, make_default=True, recording=stream.to_native())
         stream.send_recording_name(recording.title)
         for name, column in recording.curves.items():
             _send_curve(stream, name, recording.steps, column)
         for scene in recording.episodes:
             send_episode(stream, scene)
         _send_log(stream, recording)
-        stream.flush()
+        return content.drain_as_bytes()
     finally:
         layout.disconnect()
         stream.disconnect()
