@@ -17,7 +17,8 @@ export function CommandPalette({ onClose, onShowShortcuts }: Props) {
   const list = useRef<HTMLDivElement>(null);
   const [text, setText] = useState('');
   const [marked, setMarked] = useState(0);
-  const groups = fittingGroups(useCommands(text, onShowShortcuts), text);
+  const found = useCommands(text, onShowShortcuts);
+  const groups = fittingGroups(found.groups, text);
   const commands = groups.flatMap((group) => group.commands);
   const at = Math.min(marked, commands.length - 1);
   useEffect(() => {
@@ -67,8 +68,13 @@ export function CommandPalette({ onClose, onShowShortcuts }: Props) {
       />
       <CommandList id={id} groups={groups} at={at} ref={list} onMark={setMarked} onPerform={perform} />
       <p className={classes.count} role="status">
-        {commands.length === 0 ? 'Nothing fits. Try a task, a method or a name.' : `${commands.length} to choose from`}
+        {describeCount(commands.length, found.isLooking)}
       </p>
     </Modal>
   );
+}
+
+function describeCount(count: number, isLooking: boolean): string {
+  if (count > 0) return `${count} to choose from`;
+  return isLooking ? 'Looking among the runs …' : 'Nothing fits. Try a task, a method or a name.';
 }

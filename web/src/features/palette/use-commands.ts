@@ -17,7 +17,13 @@ const TYPING_REST_MS = 200;
 
 type Navigate = ReturnType<typeof useNavigate>;
 
-export function useCommands(text: string, onShowShortcuts: () => void): CommandGroup[] {
+interface Found {
+  readonly groups: CommandGroup[];
+  /** Whether the server has still to say which runs fit. */
+  readonly isLooking: boolean;
+}
+
+export function useCommands(text: string, onShowShortcuts: () => void): Found {
   const navigate = useNavigate();
   const mayLaunch = useMay('operator');
   const choices = useQuery(choicesQuery).data;
@@ -25,18 +31,20 @@ export function useCommands(text: string, onShowShortcuts: () => void): CommandG
   const found = useQuery(foundRunsQuery(asked));
   const runs = found.data?.runs ?? [];
   const studies = useQuery(studiesQuery(false)).data?.studies ?? [];
-  return [
+  // Until the answer to what stands there now has come, an older one may hold what does not fit.
+  const isFound = asked === text.trim() && !found.isPlaceholderData;
+  const groups = [
     { title: 'Pages', commands: pages(navigate, mayLaunch) },
     { title: 'Launch', commands: choices && mayLaunch ? launches(choices, navigate) : [], isLong: true },
     {
       title: asked === '' ? 'Newest runs' : 'Runs',
       commands: runs.map((run) => openRun(run, navigate)),
-      // Until the answer to what stands there now has come, an older one may hold what does not fit.
-      isFound: asked === text.trim() && !found.isPlaceholderData,
+      isFound,
     },
     { title: 'Studies', commands: studies.map((study) => openStudy(study, navigate)) },
     { title: 'Look and help', commands: useLook(onShowShortcuts) },
   ];
+  return { groups, isLooking: !isFound || found.isPending };
 }
 
 /** The newest runs, or those that the server finds for a text. */
