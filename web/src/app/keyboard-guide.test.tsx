@@ -37,6 +37,24 @@ test('the rail opens the palette, which knows runs and studies and asks the serv
   await waitFor(() => expect(router.state.location.pathname).toBe(`/studies/${STUDY.id}`));
 });
 
+test('the palette says that nothing fits once the server has said so, and not before', async () => {
+  let answer = () => {};
+  const waited = new Promise<void>((resolve) => {
+    answer = resolve;
+  });
+  const { user } = openPage('/settings');
+  await user.click(await screen.findByRole('button', { name: 'Find anything' }));
+  server.on('GET /api/runs', async () => {
+    await waited;
+    return { body: { runs: [], values: [], next_cursor: null, total: 0 } };
+  });
+  await user.type(screen.getByRole('combobox', { name: /^A page/ }), 'xyzzy');
+  expect(await screen.findByText('Looking among the runs …')).toBeTruthy();
+  expect(screen.queryByText(/^Nothing fits/)).toBeNull();
+  answer();
+  expect(await screen.findByText(/^Nothing fits/)).toBeTruthy();
+});
+
 test('g and a letter go to a page, a question mark lists the shortcuts, and neither while typing', async () => {
   const { user, router } = openPage('/');
   const search = await screen.findByRole('searchbox', { name: 'Search runs' });
