@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import shutil
 import sqlite3
-from collections.abc import Iterator
+from collections.abc import Generator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -16,7 +16,7 @@ from sldr_core.errors import DiskTooFull
 
 
 @contextmanager
-def explain_no_room(what: str, directory: Path) -> Iterator[None]:
+def explain_no_room(what: str, directory: Path) -> Generator[None]:
     """Say of what there is nothing left because a disk is full.
 
     Args:
