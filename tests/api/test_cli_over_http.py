@@ -109,3 +109,6 @@ def test_exports_come_from_the_service(command: Run, server: tuple[str, str], se
     assert (code, "There is no run" in err) == (2, True)
     code, _, err = command("export", "tensorboard", "--out", str(tmp_path), "--task", "FetchSlide", *server)
     assert (code, "none passes" in err) == (2, True)
+    for option, name in (("--metric", "test/succes"), ("--run", "0123456789ab"), ("--method", "hre")):
+        code, _, err = command("export", "figure", "--out", str(tmp_path / "none.csv"), option, name, *server)
+        assert (code, f"'{name}'" in err, (tmp_path / "none.csv").exists()) == (2, True, False), err

@@ -79,6 +79,27 @@ def test_runs_that_do_not_exist_are_told(export: Export, tmp_path: Path):
     assert (code, "none passes" in told) == (2, True)
 
 
+UNKNOWN = {
+    "task": ("--task", "FetchPsh", "No task is called 'FetchPsh'. Did you mean 'FetchPush'?"),
+    "method": ("--method", "hre", "No method is called 'hre'. Did you mean 'her'?"),
+    "preset": ("--preset", "papr", "No preset is called 'papr'. Did you mean 'paper'?"),
+    "metric": ("--metric", "test/succes_rate", "No metric of these runs is called 'test/succes_rate'. Did you mean"),
+    "run": ("--run", "0123456789ab", "run: no '0123456789ab' passes these options"),
+    "study": ("--study", "0123456789ab", "There is no study '0123456789ab'"),
+    "no runs of it": ("--task", "FetchSlide", "runs: none passes these options"),
+}
+
+
+@pytest.mark.parametrize("what", ["figure", "bundle"])
+@pytest.mark.parametrize(("option", "name", "sentence"), UNKNOWN.values(), ids=UNKNOWN)
+def test_a_name_that_nobody_knows_is_told(
+    export: Export, tmp_path: Path, what: str, option: str, name: str, sentence: str
+):
+    out = tmp_path / {"figure": "curves.csv", "bundle": "bundle.zip"}[what]
+    code, _, told = export(what, "--out", str(out), option, name)
+    assert (code, sentence in told, out.exists()) == (2, True, False), told
+
+
 def test_tensorboard_reads_back_every_point(export: Export, home: Path, tmp_path: Path):
     from tensorboard.backend.event_processing.event_file_loader import EventFileLoader
 

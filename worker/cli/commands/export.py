@@ -4,30 +4,31 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, Literal, cast
+from typing import Annotated, Literal, cast
 
 import tyro
 
 from backend.comparison.best import compare_best
-from backend.comparison.curves import SUCCESS_RATE, CurveView, compare_curves
+from backend.comparison.curves import compare_curves
 from backend.comparison.memory import ComparisonMemory
-from backend.comparison.records import Axis, BestModels, CurveComparison, Statistic
+from backend.comparison.records import BestModels, CurveComparison
 from backend.figures.bundle import Bundle, make_bundle
 from backend.figures.csv_tables import best_csv, curves_csv
 from backend.figures.drawing import Drawing, Format, draw_apart
 from backend.figures.latex import best_latex, curves_latex
 from backend.figures.styles import Width
-from backend.store.compared_runs import RunChoice, find_compared_runs, read_configs
+from backend.store.compared_runs import ComparedRun, RunChoice, find_compared_runs, read_configs
+from backend.store.curves import list_metric_names
 from backend.store.database import Database, open_database
 from backend.store.runs import get_runs
 from backend.store.settings import load_settings
 from backend.store.study_files.chosen_files import EpisodeChoice
 from backend.store.study_files.packing import pack_study
-from sldr_core.config import Phase
 from sldr_core.disk import write_atomically
 from sldr_core.errors import InvalidConfig, UnknownName
+from worker.cli.commands.export_checks import check_metric, check_runs
+from worker.cli.commands.export_choice import Chosen, Runs, View
 from worker.cli.commands.export_from_server import (
     fetch_bundle,
     fetch_exported,
@@ -41,86 +42,6 @@ from worker.cli.study_source import open_source
 from worker.exports.exported_run import ExportedRun, load_exported
 
 FIGURES = ("svg", "pdf", "png", "csv", "tex")
-Many = tyro.conf.UseAppendAction[tuple[str, ...]]
-
-
-@dataclass(frozen=True)
-class Chosen:
-    """Which runs: all that pass every option that is given."""
-
-    task: Many = ()
-    """Only runs of this task; may be given again, as the next ones."""
-    method: Many = ()
-    """Only runs of this method."""
-    preset: Many = ()
-    """Only runs of this preset."""
-    run: Many = ()
-    """Only the run with this id."""
-    study: str | None = None
-    """Only runs of the study with this id."""
-    phase: Phase = "manipulation"
-    """Which training."""
-    study_file: Annotated[Path | None, tyro.conf.arg(metavar="FILE", help_behavior_hint="")] = None
-    """Take the runs of this study file instead; "sample" stands for those that come with the product."""
-    server: Server = None
-    """The service that has them, as http://127.0.0.1:8000 (default: SLDR_URL, else the store of this machine)."""
-
-    def named_server(self) -> str | None:
-        """Return the service to ask; None if the runs are in a study file, or in the store of this machine.
-
-        Raises:
-            InvalidConfig: both a service and a study file are given.
-        """
-        if self.study_file is None:
-            return find_named_server(self.server)
-        if self.server is not None:
-            raise InvalidConfig({"server": "a study file has the runs already; leave one of the two out"})
-        return None
-
-    def choice(self) -> RunChoice:
-        """Return the choice as the store takes it."""
-        return RunChoice(self.phase, self.task, self.method, self.preset, self.run, self.study)
-
-    def question(self) -> dict[str, Any]:
-        """Return the choice as a service takes it."""
-        names = {"task": self.task, "method": self.method, "preset": self.preset, "run": self.run}
-        return {"phase": self.phase, "study": self.study, **{name: list(given) for name, given in names.items()}}
-
-
-@dataclass(frozen=True)
-class Shown:
-    """How they are shown."""
-
-    metric: str = SUCCESS_RATE
-    """What curves show."""
-    x: Axis = "epoch"
-    """What curves are drawn over."""
-    statistic: Statistic = "median"
-    """What several seeds say together; seeds draws each."""
-    level: float = 0.95
-    """Of confidence intervals."""
-    seeds: bool = False
-    """Whether each seed is drawn as well."""
-    drop_ended: bool = False
-    """Whether a run that is done counts no more behind its end; else its last value does."""
-    width: Width = "double"
-    """One column of a paper, both, or a slide."""
-
-    def view(self) -> CurveView:
-        """Return the view as comparisons take it."""
-        if not 0.5 <= self.level <= 0.999:
-            raise InvalidConfig({"level": f"it must lie between 0.5 and 0.999, got {self.level}"})
-        return CurveView(self.metric, self.x, self.statistic, self.level, self.seeds, self.drop_ended)
-
-    def question(self) -> dict[str, Any]:
-        """Return the view as a service takes it."""
-        view = self.view()
-        of_curves = {"metric": view.metric, "x": view.x, "seeds": view.with_seeds, "drop_ended": view.drop_ended}
-        return {"statistic": view.statistic, "level": view.level, "width": self.width, **of_curves}
-
-
-Runs = tyro.conf.OmitArgPrefixes[Chosen]
-View = tyro.conf.OmitArgPrefixes[Shown]
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -155,9 +76,12 @@ def figure(out: Path, runs: Runs, view: View, kind: Literal["curves", "best"] = 
         fetch_figure(server, out, kind, runs.question() | view.question())
         return _tell(out)
     with open_source(runs.study_file) as db:
-        memory = ComparisonMemory()
+        memory, choice, shown = ComparisonMemory(), runs.choice(), view.view()
+        found = _find(db, choice)
         compare = compare_curves if kind == "curves" else compare_best
-        content = compare(db, memory, runs.choice(), view.view())
+        content = compare(db, memory, choice, shown)
+        if isinstance(content, CurveComparison):
+            check_metric(content, lambda: list_metric_names(db, found))
     return _write(out, _figure_file(content, form, view.width))
 
 
@@ -176,7 +100,9 @@ def bundle(out: Path, runs: Runs, view: View, anonymous: bool = False) -> int:
         return _tell(out)
     with open_source(runs.study_file) as db:
         memory, choice, shown = ComparisonMemory(), runs.choice(), view.view()
+        found = _find(db, choice)
         curves = compare_curves(db, memory, choice, shown)
+        check_metric(curves, lambda: list_metric_names(db, found))
         best = compare_best(db, memory, choice, shown)
         ids = [member.run_id for panel in curves.panels for curve in panel.curves for member in curve.members]
         parts = Bundle(curves, best, read_configs(db, ids), anonymous, view.width)
@@ -262,15 +188,14 @@ def _exported(runs: Chosen) -> Iterator[ExportedRun]:
         yield from fetch_exported(server, runs.question())
         return
     with open_source(runs.study_file) as db:
-        for row in get_runs(db, _ids(db, runs)):
+        for row in get_runs(db, [run.id for run in _find(db, runs.choice())]):
             yield load_exported(db, row)
 
 
-def _ids(db: Database, runs: Chosen) -> list[str]:
-    ids = [run.id for run in find_compared_runs(db, runs.choice()).runs]
-    if not ids:
-        raise InvalidConfig({"runs": "none passes these options; `sldr runs` lists what there is"})
-    return ids
+def _find(db: Database, choice: RunChoice) -> list[ComparedRun]:
+    found = find_compared_runs(db, choice).runs
+    check_runs(choice.run_ids, [run.id for run in found])
+    return found
 
 
 def _figure_file(content: CurveComparison | BestModels, form: str, width: Width) -> bytes:

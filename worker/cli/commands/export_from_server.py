@@ -12,8 +12,8 @@ import numpy as np
 from backend.client import Client, ClientError
 from backend.client.access import URL_VARIABLE
 from backend.client.curves import Metrics
-from sldr_core.errors import InvalidConfig
 from sldr_core.records import Step
+from worker.cli.commands.export_checks import check_metric, check_runs
 from worker.exports.exported_run import ExportedRun
 
 Question = Mapping[str, Any]
@@ -30,8 +30,11 @@ def fetch_figure(server: str, out: Path, kind: Literal["curves", "best"], questi
 
     Raises:
         ClientError: the service cannot be asked, or refuses.
+        InvalidConfig: no run passes, or none has logged anything.
+        UnknownName: none has logged that metric.
     """
     with Client(server) as client:
+        _check(client, question, is_of_metric=kind == "curves")
         client.comparisons.figure(out, kind, **question)
 
 
@@ -40,8 +43,11 @@ def fetch_bundle(server: str, out: Path, anonymous: bool, question: Question) ->
 
     Raises:
         ClientError: the service cannot be asked, or refuses.
+        InvalidConfig: no run passes, or none has logged anything.
+        UnknownName: none has logged that metric.
     """
     with Client(server) as client:
+        _check(client, question, is_of_metric=True)
         client.comparisons.bundle(out, anonymous, **question)
 
 
@@ -63,17 +69,23 @@ def fetch_exported(server: str, question: Question) -> Iterator[ExportedRun]:
 
     Raises:
         ClientError: the service cannot be asked, or refuses.
-        InvalidConfig: no run passes.
+        InvalidConfig: no run passes, or not each that is named.
     """
     with Client(server) as client:
-        compared = client.comparisons.curves(**question)
-        members = [member.run_id for panel in compared.panels for curve in panel.curves for member in curve.members]
-        run_ids = dict.fromkeys([*members, *(left.run_id for left in compared.left_out)])
-        if not run_ids:
-            raise InvalidConfig({"runs": "none passes these options; `sldr runs` lists what there is"})
-        for run_id in run_ids:
+        for run_id in _check(client, question, is_of_metric=False):
             metrics = client.runs.metrics(run_id)
             yield ExportedRun(client.runs.get(run_id), steps_of(metrics), columns_of(metrics))
+
+
+def _check(client: Client, question: Question, is_of_metric: bool) -> list[str]:
+    """Return the runs that a question is about, once it is known that there are any."""
+    compared = client.comparisons.curves(**{name: given for name, given in question.items() if name != "width"})
+    members = [member.run_id for panel in compared.panels for curve in panel.curves for member in curve.members]
+    run_ids = list(dict.fromkeys([*members, *(left.run_id for left in compared.left_out)]))
+    check_runs(question["run"], run_ids)
+    if is_of_metric:
+        check_metric(compared, lambda: client.runs.metrics(run_ids[0]).values)
+    return run_ids
 
 
 def steps_of(metrics: Metrics) -> list[Step]:
