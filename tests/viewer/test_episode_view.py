@@ -89,6 +89,25 @@ def test_the_ghost_is_off_one_step_ahead_or_whole(show):
     show.obey(Command("ghost", {"mode": "step"}))
 
 
+def test_the_way_of_a_whole_demonstration_is_drawn_once(show, server, monkeypatch):
+    drawn: list[str] = []
+    draw = server.scene.add_line_segments
+
+    def add(name: str, *arguments: object, **options: object) -> object:
+        drawn.append(name)
+        return draw(name, *arguments, **options)
+
+    monkeypatch.setattr(server.scene, "add_line_segments", add)
+    show.obey(Command("ghost", {"mode": "whole", "from": 5}))
+    for step in (6, 7, 8):
+        show.transport.seek(step)
+        show.advance(0.0)
+    show.obey(Command("ghost", {"mode": "whole", "from": 6}))
+    show.advance(0.0)
+    assert drawn.count("/ghost/object0/path") == 2
+    show.obey(Command("ghost", {"mode": "step"}))
+
+
 def test_what_it_cannot_do_is_refused_with_what_it_can(show):
     with pytest.raises(BadCommand, match="arrows, ghost, resimulate, timeline, worst"):
         show.obey(Command("push", {}))

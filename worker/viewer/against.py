@@ -106,8 +106,7 @@ class Against:
     def _path(self, track: Track, number: int) -> NDArray[np.float64] | None:
         if self.mode != "whole":
             return None
-        ghost = self._ghosts[number]
-        return ghost.positions(ghost.whole(track, min(self.origin, track.known)))
+        return self._ghosts[number].way(track, min(self.origin, track.known))
 
 
 class _Ghost:
@@ -131,6 +130,7 @@ class _Ghost:
         self._version = (0, -1)
         self._steps: dict[int, Array] = {}
         self._wholes: dict[int, Array] = {}
+        self._way: tuple[Array, NDArray[np.float64]] | None = None
         self._shown_path: NDArray[np.float64] | None = None
         self._line: viser.LineSegmentsHandle | None = None
 
@@ -156,9 +156,15 @@ class _Ghost:
         """Return where the part's object is in the robot's scene [m], `[3]`."""
         return self._robot_kinematics.poses(qpos).pos[self._robot_lead]
 
-    def positions(self, path: Array) -> NDArray[np.float64]:
-        """Return where the object is along a path [m], `[K, 3]`."""
-        return np.stack([self._kinematics.poses(qpos).pos[self._lead] for qpos in path])
+    def way(self, track: Track, origin: int) -> NDArray[np.float64]:
+        """Return where the object is along the demonstration that begins at a step [m], `[K+1, 3]`.
+
+        It is the same array until the demonstration is another one.
+        """
+        whole = self.whole(track, origin)
+        if self._way is None or self._way[0] is not whole:
+            self._way = whole, np.stack([self._kinematics.poses(qpos).pos[self._lead] for qpos in whole])
+        return self._way[1]
 
     def draw(self, qpos: Array | None, path: NDArray[np.float64] | None) -> None:
         """Show the ghost and its path, or hide them."""
