@@ -11,9 +11,11 @@ from __future__ import annotations
 import argparse
 import ctypes
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
+import time
 from collections.abc import Generator
 from contextlib import contextmanager
 from pathlib import Path
@@ -28,6 +30,9 @@ PICTURE_SIZE = (800, 500)
 
 DRAWING_TIMEOUT_S = 120.0
 """A picture that is not drawn by then will not be [s]."""
+
+UNFINISHED = ".drawing-"
+"""What the names of directories begin with in which pictures are drawn."""
 
 NICENESS = 10
 """Drawing what nobody asked for yet gives way to everything else."""
@@ -79,7 +84,7 @@ def render_task_picture(task: str, path: Path, width: int = PICTURE_SIZE[0], hei
     """
     find_task(task)
     path.parent.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(dir=path.parent, prefix=".drawing-") as folder:
+    with tempfile.TemporaryDirectory(dir=path.parent, prefix=UNFINISHED) as folder:
         drawn = Path(folder) / "picture.png"
         size = [f"--width={width}", f"--height={height}"]
         _run([sys.executable, "-m", "worker.render", task, str(drawn), *size], task)
@@ -92,11 +97,19 @@ def render_all_pictures(home: Path) -> list[Path]:
     Raises:
         RenderFailed: one could not be drawn, for the reason given.
     """
+    _sweep(home / "pictures")
     missing = {task: home / "pictures" / f"{task}.png" for task in TASKS}
     missing = {task: path for task, path in missing.items() if not path.exists()}
     for task, path in missing.items():
         render_task_picture(task, path)
     return list(missing.values())
+
+
+def _sweep(directory: Path) -> None:
+    """Remove what drawings that were killed have left; one that is so old cannot be at work any more."""
+    for left in directory.glob(f"{UNFINISHED}*"):
+        if time.time() - left.stat().st_mtime > 2 * DRAWING_TIMEOUT_S:
+            shutil.rmtree(left, ignore_errors=True)
 
 
 def main() -> int:

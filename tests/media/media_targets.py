@@ -7,6 +7,7 @@ import signal
 import time
 from multiprocessing.connection import Connection
 
+from sldr_core.disk import temporary_beside
 from worker.media.orders import Drawn, DrawOrder, NotDrawn
 
 CONTENT = b"a picture"
@@ -24,6 +25,14 @@ def write_words(host: Connection, host_pid: int) -> None:
 def die_of_it(host: Connection, host_pid: int) -> None:
     """End without a word, as a driver that crashes does."""
     host.recv()
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+def die_while_drawing(host: Connection, host_pid: int) -> None:
+    """Be killed in the middle of a file."""
+    order: DrawOrder = host.recv()
+    order.target.parent.mkdir(parents=True, exist_ok=True)
+    temporary_beside(order.target).write_bytes(CONTENT)
     os.kill(os.getpid(), signal.SIGKILL)
 
 

@@ -66,6 +66,19 @@ def test_a_process_that_dies_fails_its_job_and_the_next_gets_a_new_one(db, held,
         assert job.reason == "The drawing process ended with exit code -9; order it again."
 
 
+def test_what_a_killed_process_left_half_drawn_is_removed(db, settings, held, make_host) -> None:
+    host, job = make_host(media_targets.die_while_drawing), ordered(db, held)
+    assert tick_until_ended(host, db, job.id).state == "failed"
+    assert list(settings.run_directory(held.run_id).glob(".video.mp4.*")) == []
+
+
+def test_what_a_host_that_was_killed_left_is_removed_with_the_next_drawing(db, settings, held, make_host) -> None:
+    left = settings.run_directory(held.run_id) / ".video.mp4.0123456789ab.4194305.tmp"
+    left.write_bytes(b"half of it")
+    assert tick_until_ended(make_host(media_targets.write_words), db, ordered(db, held).id).state == "done"
+    assert not left.exists()
+
+
 def test_one_that_hangs_is_ended(db, held, make_host, monkeypatch) -> None:
     monkeypatch.setattr(media_host, "OVERDUE_S", 0.3)
     job = tick_until_ended(make_host(media_targets.never_answer), db, ordered(db, held).id)

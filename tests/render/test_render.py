@@ -56,6 +56,22 @@ def test_only_missing_pictures_are_drawn(tmp_path):
         assert picture.size == render.PICTURE_SIZE
 
 
+def test_what_killed_drawings_left_is_removed_and_nothing_of_those_at_work(tmp_path):
+    pictures = tmp_path / "pictures"
+    pictures.mkdir()
+    for task in TASKS:
+        (pictures / f"{task}.png").write_text("drawn before")
+    left, at_work = pictures / ".drawing-left", pictures / ".drawing-at-work"
+    for folder in (left, at_work):
+        folder.mkdir()
+        (folder / "picture.png").touch()
+    os.utime(left, (0.0, 0.0))
+
+    assert render.render_all_pictures(tmp_path) == []
+
+    assert (left.exists(), at_work.exists()) == (False, True)
+
+
 def test_a_picture_takes_the_size_asked_for_and_leaves_nothing_beside_it(tmp_path):
     path = tmp_path / "new" / "push.png"
     render.render_task_picture("FetchPush", path, 160, 90)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import time
 from dataclasses import dataclass
+from glob import escape
 from pathlib import Path
 
 from backend.store.database import Database
@@ -124,6 +125,7 @@ class MediaHost:
         except OSError as err:
             fail_media(self._database, job, unreadable(err))
             return
+        _sweep(order.target)
         self._drawing = _Drawing(job, order, begun=now, renewed=now)
         self._process.send(order)
 
@@ -166,6 +168,7 @@ class MediaHost:
                 fail_media(self._database, drawing.job, reason)
                 # A renderer that has failed once is not trusted again.
                 self._process.end()
+                _sweep(drawing.order.target)
         self._drawing = None
         self._idle_since, self._look_at = time.monotonic(), 0.0
 
@@ -175,3 +178,9 @@ class MediaHost:
         left = finish_media(self._database, job, MadeFile(path, size, sha256))
         if left is not None:
             self._storage.forget(left)
+
+
+def _sweep(target: Path) -> None:
+    """Remove what drawing processes that were killed have left of a file; who holds its job draws it alone."""
+    for left in target.parent.glob(f".{escape(target.name)}.*.tmp"):
+        left.unlink(missing_ok=True)
