@@ -100,6 +100,14 @@ def test_children_do_not_outlive_a_parent_that_is_killed():
     wait_until(lambda: not is_running(orphan), patience_s=5)
 
 
+def test_a_child_that_a_signal_without_a_name_ended_is_told_and_started_again(sleeper: Child, told: list[str]):
+    assert sleeper.pid is not None
+    os.kill(sleeper.pid, signal.SIGRTMIN + 5)
+    wait_until(lambda: sleeper.has_ended)
+    sleeper.keep_alive(told.append)
+    assert told == [f"The sleeper was ended by signal {signal.SIGRTMIN + 5}; starting it again in 0.05 s."]
+
+
 @pytest.fixture
 def impatient(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """Look at children often and start them again soon; afterwards signals are handled as before."""
@@ -128,6 +136,30 @@ def test_the_api_starts_ahead_of_the_others(monkeypatch: pytest.MonkeyPatch, fre
     with pytest.raises(CannotServe):
         keep({"API": Child("API", FAILING, os.environ), "worker": others}, f"http://127.0.0.1:{free_port}", str)
     assert others.pid is None
+
+
+@pytest.mark.usefixtures("impatient")
+def test_whoever_asks_twice_does_not_wait_for_trainings(
+    monkeypatch: pytest.MonkeyPatch, free_port: int, tmp_path: Path, told: list[str]
+):
+    monkeypatch.setattr("worker.cli.commands.serve.END_S", 300.0)
+    monkeypatch.setattr("worker.cli.commands.serve.HURRY_S", 0.1)
+    monkeypatch.setattr("worker.cli.commands.serve._tell", told.append)
+    is_deaf = tmp_path / "is-deaf"
+    child = Child("API", ("sh", "-c", f"trap '' TERM; touch {is_deaf}; exec sleep 600"), os.environ)
+
+    def ask_twice() -> None:
+        wait_until(is_deaf.exists)
+        os.kill(os.getpid(), signal.SIGINT)
+        wait_until(lambda: bool(told))
+        os.kill(os.getpid(), signal.SIGINT)
+
+    threading.Thread(target=ask_twice).start()
+    begun = time.monotonic()
+    assert keep({"API": child}, f"http://127.0.0.1:{free_port}", str) == 0
+    assert time.monotonic() - begun < 200.0
+    assert told == ["Trainings may take up to 300 s to checkpoint; Ctrl-C again ends at once."]
+    assert child.has_ended
 
 
 def test_the_service_starts_heals_and_ends_as_one(tmp_path: Path, free_port: int):

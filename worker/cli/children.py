@@ -11,6 +11,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 
 from worker.mortality import PR_SET_PDEATHSIG
+from worker.signal_names import name_signal
 
 FIRST_PAUSE_S = 0.5
 """Pause before a child that died is started again; doubled each time it dies young [s]."""
@@ -63,6 +64,11 @@ class Child:
         if self._process:
             self._process.terminate()
 
+    @property
+    def has_ended(self) -> bool:
+        """Whether no process runs just now."""
+        return self._process is None or self._process.poll() is not None
+
     def wait(self, until: float) -> None:
         """Wait for its end until a monotonic time [s], then kill it."""
         if not self._process:
@@ -98,4 +104,4 @@ def _die_with(parent: int) -> Callable[[], None] | None:
 def _ending(code: int) -> str:
     if code >= 0:
         return f"ended with exit code {code}"
-    return f"was ended by {signal.Signals(-code).name}"
+    return f"was ended by {name_signal(-code)}"

@@ -66,7 +66,8 @@ def host_sessions(settings: Settings) -> None:
     pictures = _draw_pictures(settings.home)
     try:
         while not stop.is_set():
-            stop.wait(_round(host.tick, media.tick))
+            # The last is for a process that has ended to be taken off the list of processes.
+            stop.wait(_round(host.tick, media.tick, pictures.poll))
     finally:
         pictures.terminate()
         host.close()
@@ -75,7 +76,7 @@ def host_sessions(settings: Settings) -> None:
         database.close()
 
 
-def _round(*ticks: Callable[[], None]) -> float:
+def _round(*ticks: Callable[[], object]) -> float:
     """Do one round of everything, and return how long to wait for the next [s]."""
     try:
         for tick in ticks:

@@ -8,7 +8,6 @@ from __future__ import annotations
 import logging
 import multiprocessing
 import os
-import signal
 import socket
 import time
 import uuid
@@ -26,6 +25,7 @@ from backend.store.settings import Settings
 from backend.store.storage import FileStorage
 from sldr_core.errors import SldrError
 from worker.sentences import unreadable
+from worker.signal_names import name_signal
 from worker.viewer.reports import Broken, Job, Ready, Report, Watched
 from worker.viewer.session_files import Files, RunFiles, find_session_files
 
@@ -273,5 +273,5 @@ def _is_another_process(pid: int) -> bool:
 
 def _ending(exit_code: int | None) -> str:
     if exit_code is not None and exit_code < 0:
-        return f"was ended by {signal.Signals(-exit_code).name}"
+        return f"was ended by {name_signal(-exit_code)}"
     return f"ended with exit code {exit_code}"

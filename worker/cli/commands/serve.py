@@ -9,7 +9,7 @@ import sys
 import time
 import urllib.error
 import urllib.request
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 
 import tyro
 
@@ -29,6 +29,9 @@ HEAD_START_S = 5.0
 
 END_S = 30.0
 """How long children may take to checkpoint and end [s]."""
+
+HURRY_S = 3.0
+"""How long they may take once they were asked again [s]."""
 
 ANSWER_S = 1.0
 """How long the API may take to say that it is well [s]."""
@@ -80,7 +83,10 @@ def serve(host: str = "127.0.0.1", port: int = 8000, workers: int = 1, accounts:
 
 
 def keep(children: dict[str, Child], address: str, greeting: Callable[[], str]) -> int:
-    """Keep the children alive until SIGINT or SIGTERM, then end them all; say when the API answers."""
+    """Keep the children alive until SIGINT or SIGTERM, then end them all; say when the API answers.
+
+    Who asks a second time does not wait for what they have to finish.
+    """
     ended_by: list[int] = []
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda number, frame: ended_by.append(number))
@@ -98,12 +104,25 @@ def keep(children: dict[str, Child], address: str, greeting: Callable[[], str]) 
                 raise CannotServe(f"The API ended {MOST_DEATHS} times before it answered; its last words are above.")
             time.sleep(LOOK_INTERVAL_S)
     finally:
-        for child in children.values():
-            child.ask_to_end()
-        until = time.monotonic() + END_S
-        for child in children.values():
-            child.wait(until)
+        if ended_by:
+            _tell(f"Trainings may take up to {END_S:.0f} s to checkpoint; Ctrl-C again ends at once.")
+        _end(children.values(), lambda: len(ended_by) > 1)
     return 0
+
+
+def _end(children: Collection[Child], asked_again: Callable[[], bool]) -> None:
+    for child in children:
+        child.ask_to_end()
+    until, is_in_hurry = time.monotonic() + END_S, False
+    while time.monotonic() < until and not all(child.has_ended for child in children):
+        if asked_again() and not is_in_hurry:
+            # A worker that is asked twice hands its runs back without a checkpoint.
+            for child in children:
+                child.ask_to_end()
+            until, is_in_hurry = time.monotonic() + HURRY_S, True
+        time.sleep(LOOK_INTERVAL_S)
+    for child in children:
+        child.wait(until)
 
 
 def check_port(host: str, port: int) -> None:
