@@ -95,3 +95,20 @@ def test_whoever_reads_no_further_is_not_told_of_it(words: list[str], tmp_path: 
     os.close(writer)
 
     assert (done.returncode, done.stderr) == (141, "")
+
+
+def test_a_full_disk_behind_what_is_printed_is_told_in_a_sentence(tmp_path: Path) -> None:
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run(
+            [sys.executable, "-m", "worker.cli", "list", "models", "--json"],
+            env={**os.environ, **Settings(tmp_path, sqlite_url(tmp_path)).as_environment()},
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            check=False,
+        )
+
+    assert (done.returncode, done.stderr) == (
+        2,
+        "sldr: What it says could not be written out (No space left on device).\n",
+    )

@@ -8,8 +8,9 @@ from collections.abc import Sequence
 from importlib import import_module
 from importlib.metadata import version
 
+from sldr_core.disk import NO_ROOM
 from sldr_core.errors import UnknownName
-from worker.sentences import tell
+from worker.sentences import BAD_INPUT, tell
 
 COMMANDS = {
     "serve": "Serve the page in the browser, with a worker and the 3D viewer.",
@@ -52,6 +53,12 @@ def main(arguments: Sequence[str] | None = None) -> None:
         # What is still held back would be tried, and complained about, once more at the very end.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         sys.exit(READER_GONE)
+    except OSError as error:
+        if error.errno not in NO_ROOM or error.filename is not None:
+            raise
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        print(f"sldr: What it says could not be written out ({error.strerror}).", file=sys.stderr)
+        sys.exit(BAD_INPUT)
 
 
 def _answer(words: list[str]) -> int:
