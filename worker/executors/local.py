@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 
 from backend.store.claims import Claim, claim_to_json
+from backend.store.files import LOG_FILE
 from backend.store.outcomes import Outcome
 from backend.store.settings import Settings
 from sldr_core.processor import THREADS_VARIABLE
@@ -17,7 +18,6 @@ from worker.executors.endings import failure_of
 from worker.machine import VISIBLE_VARIABLE, Gpu
 
 CHILD_COMMAND = (sys.executable, "-m", "worker.child")
-LOG_FILE = "log.txt"
 
 
 class LocalChild:

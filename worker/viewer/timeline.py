@@ -15,7 +15,6 @@ from worker.viewer.tracks import Track
 
 Column = list[float | None]
 
-TASK_STREAM = "task"
 Q_PREFIX = "sldr/"
 """Streams of this name hold q_t."""
 

@@ -46,11 +46,6 @@ class Grips:
         self._server, self._task = server, task
         self._grips: dict[str, _Grip] = {}
 
-    @property
-    def is_shown(self) -> bool:
-        """Whether they can be dragged."""
-        return bool(self._grips)
-
     def show(self, start: Pose, goal: Pose) -> None:
         """Put them where object and goal are."""
         aside = np.asarray(TARGET_ASIDE) if is_shown_aside(self._task) else np.zeros(3)
