@@ -69,6 +69,9 @@ class CountedEnvs:
     def remaining_distance(self, achieved: np.ndarray, goal: np.ndarray) -> np.ndarray:
         return achieved[:, 0]
 
+    def unstable(self) -> np.ndarray:
+        return np.zeros(self.num_envs, dtype=np.bool_)
+
     def _now(self) -> Observation:
         achieved = np.zeros((self.num_envs, 3))
         achieved[:, 0] = np.arange(self._begun - self.num_envs, self._begun)
