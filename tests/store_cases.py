@@ -11,7 +11,9 @@ from sqlalchemy import update
 from backend.store.claims import Claim
 from backend.store.database import Database
 from backend.store.launches import LaunchOrder, launch
-from backend.store.queue import claim
+from backend.store.metrics import MetricPoint, append_metrics
+from backend.store.outcomes import Succeeded
+from backend.store.queue import claim, finish
 from backend.store.states import RunState
 from backend.store.tables import runs
 from sldr_core.records import Step
@@ -54,6 +56,17 @@ def step(cycle: int) -> Step:
     return Step(
         cycle=cycle, epoch=1, env_steps=200 * cycle, episodes=4 * cycle, updates=4 * cycle, wall_seconds=0.5 * cycle
     )
+
+
+def run_on_two_models(db: Database) -> list[str]:
+    """Launch runs that differ in nothing but their locomotion model; return the ids of the models, then of the runs."""
+    models = [launch(db, order(phase="locomotion", seeds=(seed,)))[0] for seed in (1, 2)]
+    for _ in models:
+        finish(db, claim_next(db), Succeeded(1.0))
+    robots = [launch(db, order(method="her-sldr", locomotion=model))[0] for model in models]
+    for _ in robots:
+        append_metrics(db, claim_next(db), [MetricPoint(step(1), {"test/success_rate": 0.5})])
+    return [*models, *robots]
 
 
 def at_once(*calls: Callable[[], object]) -> list[object]:

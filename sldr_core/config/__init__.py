@@ -33,6 +33,7 @@ from sldr_core.config.tasks import (
     TaskSpec,
     TupleScene,
     Variant,
+    explain_misfit,
     find_task,
 )
 from sldr_core.config.train import (
@@ -93,6 +94,7 @@ __all__ = [
     "config_hash",
     "config_schema",
     "config_to_dict",
+    "explain_misfit",
     "find_method",
     "find_task",
     "flatten",

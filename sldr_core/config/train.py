@@ -12,7 +12,7 @@ from pydantic.dataclasses import dataclass
 from sldr_core.config.method_settings import CurriculumConfig, RndConfig, SldrConfig
 from sldr_core.config.methods import METHODS, MethodSpec, find_method
 from sldr_core.config.numbers import Count, Positive, Rate, Return, Share, Weight
-from sldr_core.config.tasks import LOCOMOTION_TASKS, TASKS, Phase, TaskSpec, Variant, find_task
+from sldr_core.config.tasks import LOCOMOTION_TASKS, TASKS, Phase, TaskSpec, Variant, explain_misfit, find_task
 from sldr_core.errors import InvalidConfig, UnknownName
 
 _FROZEN = ConfigDict(extra="forbid", use_attribute_docstrings=True, allow_inf_nan=False)
@@ -173,13 +173,11 @@ class TrainConfig:
         return self
 
     def _check_task(self) -> None:
-        if self.task in LOCOMOTION_TASKS and self.phase != "locomotion":
-            raise ValueError(f"task: {self.task} exists for locomotion only; the robot has no task of this name.")
         if self.task not in TASKS | LOCOMOTION_TASKS:
             raise ValueError(f"task: {UnknownName('task', self.task, TASKS)}")
-        learnt_in = self.task_spec.locomotion_tasks
-        if self.phase == "locomotion" and self.task not in learnt_in:
-            raise ValueError(f"task: the objects of {self.task} learn in {' and '.join(learnt_in)}; choose that.")
+        misfit = explain_misfit(self.task_spec, self.phase)
+        if misfit is not None:
+            raise ValueError(f"task: {misfit}")
         if self.task_spec.family == "hand" and self.scene.locomotion_robot == "absent":
             raise ValueError("scene.locomotion_robot: the object lies in the hand; choose 'auto', 'still' or 'random'.")
 

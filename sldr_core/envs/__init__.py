@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import get_args
 
-from sldr_core.config import LOCOMOTION_TASKS, PHASES, Phase, RewardKind, Robot, TaskSpec, Variant, find_task
+from sldr_core.config import PHASES, Phase, RewardKind, Robot, TaskSpec, Variant, explain_misfit, find_task
 from sldr_core.envs.contacts import TouchSense
 from sldr_core.envs.envs import Envs, Observation
 from sldr_core.envs.families import EnvOrder, build_fetch_env, build_hand_env, build_stack_env, build_tuple_env
@@ -79,10 +79,8 @@ def make_envs(
 
 
 def _check(spec: TaskSpec, phase: Phase, robot: Robot) -> None:
-    if phase == "manipulation" and spec.name in LOCOMOTION_TASKS:
-        raise InvalidConfig({"task": f"{spec.name} exists for locomotion only; the robot has no task of this name."})
-    if phase == "locomotion" and spec.name not in spec.locomotion_tasks:
-        learnt_in = " and ".join(spec.locomotion_tasks)
-        raise InvalidConfig({"task": f"the objects of {spec.name} learn in {learnt_in}; choose that."})
+    misfit = explain_misfit(spec, phase)
+    if misfit is not None:
+        raise InvalidConfig({"task": misfit})
     if phase == "locomotion" and spec.family == "hand" and robot == "absent":
         raise InvalidConfig({"robot": "the object lies in the hand; choose 'auto', 'still' or 'random'."})

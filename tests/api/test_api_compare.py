@@ -8,14 +8,10 @@ import zipfile
 
 import pytest
 from live_api import Service, problem_fields
-from store_cases import claim_next, order, step
+from store_cases import run_on_two_models
 from store_samples import SampleSize, fill_store
 
 from backend.figures.drawing import Drawing
-from backend.store.launches import launch
-from backend.store.metrics import MetricPoint, append_metrics
-from backend.store.outcomes import Succeeded
-from backend.store.queue import finish
 
 SIZE = SampleSize(tasks=("FetchPush",), methods=("her", "ddpg"), seeds=3, epochs=4)
 
@@ -97,14 +93,7 @@ def with_models(service: Service, monkeypatch: pytest.MonkeyPatch) -> list[str]:
     monkeypatch.setattr(
         "backend.figures.bundle.draw_apart", lambda drawings: [repr(drawn).encode() for drawn in drawings]
     )
-    db = service.database
-    models = [launch(db, order(phase="locomotion", seeds=(seed,)))[0] for seed in (1, 2)]
-    for _ in models:
-        finish(db, claim_next(db), Succeeded(1.0))
-    robots = [launch(db, order(method="her-sldr", locomotion=model))[0] for model in models]
-    for _ in robots:
-        append_metrics(db, claim_next(db), [MetricPoint(step(1), {"test/success_rate": 0.5})])
-    return [*models, *robots]
+    return run_on_two_models(service.database)
 
 
 def test_an_anonymous_bundle_numbers_locomotion_models(service: Service, with_models: list[str]):

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from store_cases import run_on_two_models
 from store_samples import SampleSize, fill_store
 
 from backend.store.database import open_database
@@ -47,6 +48,16 @@ def export(home: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFi
     return run
 
 
+@pytest.fixture
+def two_models(tmp_path: Path, export: Export, monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Let the command look at runs that differ in nothing but their locomotion model; return the ids of all runs."""
+    monkeypatch.setenv(HOME_VARIABLE, str(tmp_path))
+    db = open_database(Settings(home=tmp_path, database_url=sqlite_url(tmp_path)))
+    ids = run_on_two_models(db)
+    db.close()
+    return ids
+
+
 def test_the_numbers_of_a_figure_are_written(export: Export, tmp_path: Path):
     out = tmp_path / "curves.csv"
     code, printed, _ = export("figure", "--out", str(out), "--x", "env_steps")
@@ -72,6 +83,18 @@ def test_a_bundle_is_packed(export: Export, tmp_path: Path, monkeypatch: pytest.
     assert export("bundle", "--out", str(out), "--anonymous")[0] == 0
     with zipfile.ZipFile(out) as archive:
         assert "configs/run-0003.json" in archive.namelist()
+
+
+def test_an_anonymous_bundle_holds_no_ids(
+    export: Export, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, two_models: list[str]
+):
+    monkeypatch.setattr("backend.figures.bundle.draw_apart", lambda drawings: [b"drawn"] * len(drawings))
+    out = tmp_path / "bundle.zip"
+    assert export("bundle", "--out", str(out), "--anonymous")[0] == 0
+    with zipfile.ZipFile(out) as archive:
+        told = "\n".join(archive.read(name).decode() for name in archive.namelist())
+    assert "locomotion 2" in told
+    assert [run_id for run_id in two_models if run_id in told] == []
 
 
 def test_runs_that_do_not_exist_are_told(export: Export, tmp_path: Path):

@@ -14,8 +14,8 @@ import pytest
 from other_processes import wait_until
 
 from backend.store.settings import Settings
+from worker.exit_words import describe_exit
 from worker.viewer import __main__ as process
-from worker.viewer import host
 
 PICTURES_S = 60.0
 """How long the process that draws pictures may take to be taken off the list [s]."""
@@ -74,4 +74,4 @@ def test_the_process_that_draws_pictures_leaves_no_zombie(tmp_path: Path, monkey
     [(1, "ended with exit code 1"), (-9, "was ended by SIGKILL"), (-40, "was ended by signal 40")],
 )
 def test_an_end_is_told_in_words(exit_code: int, sentence: str) -> None:
-    assert host._ending(exit_code) == sentence
+    assert describe_exit(exit_code) == sentence

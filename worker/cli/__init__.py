@@ -50,15 +50,19 @@ def main(arguments: Sequence[str] | None = None) -> None:
         finally:
             sys.stdout.flush()
     except BrokenPipeError:
-        # What is still held back would be tried, and complained about, once more at the very end.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _drop_rest()
         sys.exit(READER_GONE)
     except OSError as error:
         if error.errno not in NO_ROOM or error.filename is not None:
             raise
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _drop_rest()
         print(f"sldr: What it says could not be written out ({error.strerror}).", file=sys.stderr)
         sys.exit(BAD_INPUT)
+
+
+def _drop_rest() -> None:
+    # What is still held back would be tried, and complained about, once more at the very end.
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _answer(words: list[str]) -> int:

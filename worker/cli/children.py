@@ -10,8 +10,8 @@ import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
 
+from worker.exit_words import describe_exit
 from worker.mortality import PR_SET_PDEATHSIG
-from worker.signal_names import name_signal
 
 FIRST_PAUSE_S = 0.5
 """Pause before a child that died is started again; doubled each time it dies young [s]."""
@@ -57,7 +57,7 @@ class Child:
             self.deaths_in_youth = 0 if grown_up else self.deaths_in_youth + 1
             pause = min(FIRST_PAUSE_S * 2 ** max(0, self.deaths_in_youth - 1), LONGEST_PAUSE_S)
             self._start_at = now + pause
-            tell(f"The {self.name} {_ending(code)}; starting it again in {pause:g} s.")
+            tell(f"The {self.name} {describe_exit(code)}; starting it again in {pause:g} s.")
 
     def ask_to_end(self) -> None:
         """Send SIGTERM."""
@@ -99,9 +99,3 @@ def _die_with(parent: int) -> Callable[[], None] | None:
             os._exit(1)
 
     return prepare
-
-
-def _ending(code: int) -> str:
-    if code >= 0:
-        return f"ended with exit code {code}"
-    return f"was ended by {name_signal(-code)}"

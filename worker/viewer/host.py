@@ -24,8 +24,8 @@ from backend.store.errors import FilesUnavailable
 from backend.store.settings import Settings
 from backend.store.storage import FileStorage
 from sldr_core.errors import SldrError
+from worker.exit_words import describe_exit
 from worker.sentences import unreadable
-from worker.signal_names import name_signal
 from worker.viewer.reports import Broken, Job, Ready, Report, Watched
 from worker.viewer.session_files import Files, RunFiles, find_session_files
 
@@ -215,7 +215,7 @@ class Host:
         if served.broken is not None:
             self._end(served, served.broken, failed=True)
         elif not served.process.is_alive():
-            self._end(served, f"The 3D view {_ending(served.process.exitcode)}; open it again.", failed=True)
+            self._end(served, f"The 3D view {describe_exit(served.process.exitcode)}; open it again.", failed=True)
         elif served.clients == 0 and now - served.idle_since > patience:
             self._end(served, f"Nobody watched for {patience:.0f} s.")
 
@@ -269,9 +269,3 @@ def _stop(served: Served, message: str, failed: bool = False) -> Ending:
 def _is_another_process(pid: int) -> bool:
     """Tell whether a process of this machine lives and is not this one, which may have inherited the number."""
     return pid != os.getpid() and psutil.pid_exists(pid)
-
-
-def _ending(exit_code: int | None) -> str:
-    if exit_code is not None and exit_code < 0:
-        return f"was ended by {name_signal(-exit_code)}"
-    return f"ended with exit code {exit_code}"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Query
@@ -16,11 +15,12 @@ from backend.comparison.best import compare_best
 from backend.comparison.curves import CurveView, compare_curves
 from backend.comparison.memory import ComparisonMemory
 from backend.comparison.records import BestModels, CurveComparison
-from backend.figures.bundle import Bundle, make_bundle
+from backend.figures.bundle import make_bundle
 from backend.figures.csv_tables import best_csv, curves_csv
 from backend.figures.drawing import Drawing, Format, draw_apart
+from backend.figures.gathering import gather_bundle
 from backend.figures.latex import best_latex, curves_latex
-from backend.store.compared_runs import RunChoice, read_configs
+from backend.store.compared_runs import RunChoice
 from backend.store.database import Database
 
 FigureFormat = Literal[Format, "csv", "tex"]
@@ -64,12 +64,7 @@ def get_bundle(
     anonymous: Annotated[bool, Query(description="Whether to leave out what tells who made it, and where.")] = False,
 ) -> Response:
     """Send figures, numbers, configs, versions, seeds and references in one archive."""
-    view = replace(view, anonymous=anonymous)
-    curves = compare_curves(store, memory, choice, view)
-    run_ids = [member.run_id for panel in curves.panels for curve in panel.curves for member in curve.members]
-    best = compare_best(store, memory, choice, view)
-    configs = read_configs(store, run_ids)
-    bundle = Bundle(curves, best, configs, anonymous, look.width, look.log_x, look.log_y)
+    bundle = gather_bundle(store, memory, choice, view, anonymous, look.width, look.log_x, look.log_y)
     headers = {"content-disposition": 'attachment; filename="sldr-comparison.zip"'}
     return Response(make_bundle(bundle), media_type="application/zip", headers=headers)
 

@@ -50,6 +50,7 @@ __all__ = [
     "TaskSpec",
     "TupleScene",
     "Variant",
+    "explain_misfit",
     "find_task",
 ]
 
@@ -88,6 +89,15 @@ def find_task(name: str, variant: Variant = "ours") -> TaskSpec:
     if name not in known:
         raise UnknownName("task", name, known)
     return known[name] if variant == "ours" else _lay_over(known[name], known[name].original)
+
+
+def explain_misfit(spec: TaskSpec, phase: Phase) -> str | None:
+    """Return why a task has no such phase, or None if it has."""
+    if phase == "manipulation" and spec.name in LOCOMOTION_TASKS:
+        return f"{spec.name} exists for locomotion only; the robot has no task of this name."
+    if phase == "locomotion" and spec.name not in spec.locomotion_tasks:
+        return f"the objects of {spec.name} learn in {' and '.join(spec.locomotion_tasks)}; choose that."
+    return None
 
 
 def _lay_over(record: _Record, changes: Mapping[str, Any]) -> _Record:

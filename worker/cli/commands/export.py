@@ -13,12 +13,13 @@ from backend.comparison.best import compare_best
 from backend.comparison.curves import compare_curves
 from backend.comparison.memory import ComparisonMemory
 from backend.comparison.records import BestModels, CurveComparison
-from backend.figures.bundle import Bundle, make_bundle
+from backend.figures.bundle import make_bundle
 from backend.figures.csv_tables import best_csv, curves_csv
 from backend.figures.drawing import Drawing, Format, draw_apart
+from backend.figures.gathering import gather_bundle
 from backend.figures.latex import best_latex, curves_latex
 from backend.figures.styles import Width
-from backend.store.compared_runs import ComparedRun, RunChoice, find_compared_runs, read_configs
+from backend.store.compared_runs import ComparedRun, RunChoice, find_compared_runs
 from backend.store.curves import list_metric_names
 from backend.store.database import Database, open_database
 from backend.store.runs import get_runs
@@ -101,11 +102,8 @@ def bundle(out: Path, runs: Runs, view: View, anonymous: bool = False) -> int:
     with open_source(runs.study_file) as db:
         memory, choice, shown = ComparisonMemory(), runs.choice(), view.view()
         found = _find(db, choice)
-        curves = compare_curves(db, memory, choice, shown)
-        check_metric(curves, lambda: list_metric_names(db, found))
-        best = compare_best(db, memory, choice, shown)
-        ids = [member.run_id for panel in curves.panels for curve in panel.curves for member in curve.members]
-        parts = Bundle(curves, best, read_configs(db, ids), anonymous, view.width)
+        parts = gather_bundle(db, memory, choice, shown, anonymous, view.width)
+        check_metric(parts.curves, lambda: list_metric_names(db, found))
     return _write(out, make_bundle(parts))
 
 

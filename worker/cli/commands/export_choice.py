@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 import tyro
 
-from backend.comparison.curves import SUCCESS_RATE, CurveView
+from backend.comparison.curves import CurveView
 from backend.comparison.records import Axis, Statistic
 from backend.figures.styles import Width
 from backend.store.compared_runs import RunChoice
@@ -86,17 +86,17 @@ class Chosen:
 class Shown:
     """How they are shown."""
 
-    metric: str = SUCCESS_RATE
+    metric: str = CurveView.metric
     """What curves show."""
-    x: Axis = "epoch"
+    x: Axis = CurveView.x
     """What curves are drawn over."""
-    statistic: Statistic = "median"
+    statistic: Statistic = CurveView.statistic
     """What several seeds say together; seeds draws each."""
-    level: float = 0.95
+    level: float = CurveView.level
     """Of confidence intervals."""
-    seeds: bool = False
+    seeds: bool = CurveView.with_seeds
     """Whether each seed is drawn as well."""
-    drop_ended: bool = False
+    drop_ended: bool = CurveView.drop_ended
     """Whether a run that is done counts no more behind its end; else its last value does."""
     width: Width = "double"
     """One column of a paper, both, or a slide."""
