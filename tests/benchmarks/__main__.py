@@ -52,7 +52,7 @@ def main() -> int:
     """Measure the groups asked for; return 1 if a target is missed."""
     options = _parse()
     named = options.only or [name for name in GROUPS if name not in LONG]
-    peer = {"cap_s": 3600.0 * options.peer_hours, "take_kept": options.keep_peer}
+    peer = {"cap_s": 3600.0 * options.peer_hours, "take_kept": options.go_on}
     groups = GROUPS | {name: partial(GROUPS[name], **peer) for name in AGAINST_PEERS}
     groups["quality"] = partial(measure_quality, options.home)
     measured: list[Measured] = []
@@ -75,7 +75,9 @@ def _parse() -> argparse.Namespace:
     parser.add_argument("--json", type=Path, default=NUMBERS, help="where the numbers go")
     hours = PEER_CAP_S / 3600.0
     parser.add_argument("--peer-hours", type=float, default=hours, help="how long a robot's peer may train")
-    parser.add_argument("--keep-peer", action="store_true", help="go on from that peer's earlier time here")
+    parser.add_argument(
+        "--go-on", action="store_true", help="take what a peer, or an interrupted measurement, came to here before"
+    )
     parser.add_argument("--home", type=Path, help="data directory whose finished runs `quality` reads")
     return parser.parse_args()
 

@@ -6,10 +6,10 @@ import statistics
 import tempfile
 import time
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 from bench_rows import Measured, Target, row
+from kept_seeds import Reached, forget, reach_each
 from sac_peer import PeerCurve, train_peer
 
 from sldr_core.config import TrainConfig
@@ -52,17 +52,18 @@ def measure_manipulation(
 ) -> Iterator[Measured]:
     """Train a peer, then object and robot, until nine of ten test episodes end at the goal, three seeds (hours).
 
-    The peer comes first, as it is kept: whoever is interrupted after it need not wait for it again.
+    The peer comes first. It is kept, and so is each seed: whoever is interrupted need not wait for them again.
 
     Args:
         task: what is to be learnt.
         env_id: the same task of gymnasium-robotics.
         minutes: how long it may take [min].
         cap_s: how long the peer may take [s].
-        take_kept: whether a peer that was trained on this machine before need not be trained again.
+        take_kept: whether what was trained on this machine before need not be trained again: a peer, and the seeds of a
+            measurement that was interrupted.
     """
     peer = train_peer(task, env_id, LEARNT, cap_s, take_kept)
-    reached = [_reach(task, seed) for seed in SEEDS]
+    reached = reach_each(task, SEEDS, _reach, take_kept)
     waits = [one.seconds / 60.0 for one in reached]
     told = ", ".join(f"seed {seed}: best {one.best:.1%}" for seed, one in zip(SEEDS, reached, strict=True))
     yield row(
@@ -73,6 +74,7 @@ def measure_manipulation(
         f"median {statistics.median(waits):.1f} min; {told}",
     )
     yield against_peer(task, reached, peer)
+    forget(task)
 
 
 def against_peer(task: str, reached: Sequence[Reached], peer: PeerCurve) -> Measured:
@@ -86,14 +88,6 @@ def against_peer(task: str, reached: Sequence[Reached], peer: PeerCurve) -> Meas
         peer.told(LEARNT),
         {"steps": peer.steps, "seconds": peer.seconds, "success": peer.success},
     )
-
-
-@dataclass(frozen=True)
-class Reached:
-    """Say how long it took, and how far it came; infinitely long if it did not come there."""
-
-    seconds: float
-    best: float
 
 
 class _StopAt(DirectoryRecorder):
