@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import { COMPARISON } from '@/testing/comparison';
 import { byFamily } from './families';
-import { panelCurves, panelLegend, sourcesOf, wholeOf, yExtent } from './panels';
+import { panelCurves, panelWords, sourcesOf, wholeOf, yExtent } from './panels';
 
 const [PANEL] = COMPARISON.panels;
 if (PANEL === undefined) throw new Error('The sample has no panel.');
@@ -29,15 +29,25 @@ test('smoothing keeps the computed line, and means the same on every axis', () =
   expect(centreOf(stretched)?.centre).toEqual(smoothed?.centre);
 });
 
-test('the legend tells what most curves are, then names the others', () => {
+test('a panel tells what most curves are, then names the others', () => {
   const few = '1 seed, each by itself: too few for a band';
   const band = 'HER-Sparse+SLDR: median of 2 to 4 seeds, band: quartiles (25 to 75 %)';
   const [her, ...others] = PANEL.curves;
-  expect(panelLegend({ ...PANEL, curves: her === undefined ? [] : [her] }, COMPARISON.groups)).toBe(few);
-  expect(panelLegend(PANEL, COMPARISON.groups)).toBe(`HER-Sparse: ${few}; ${band}`);
+  const nothingElse = { others: [], otherCurves: 0 };
+  expect(panelWords({ ...PANEL, curves: [] }, COMPARISON.groups)).toEqual({ first: '', ...nothingElse });
+  expect(panelWords({ ...PANEL, curves: her === undefined ? [] : [her] }, COMPARISON.groups)).toEqual({
+    first: few,
+    ...nothingElse,
+  });
 
   const more = { ...PANEL, curves: her === undefined ? [] : [her, { ...her, group: 'cher' }, ...others] };
-  expect(panelLegend(more, COMPARISON.groups)).toBe(`${few}; ${band}`);
+  expect(panelWords(more, COMPARISON.groups)).toEqual({ first: `${few}; ${band}`, ...nothingElse });
+});
+
+test('what takes more than two lines is kept apart, and none of it is lost', () => {
+  const few = 'HER-Sparse: 1 seed, each by itself: too few for a band';
+  const band = 'HER-Sparse+SLDR: median of 2 to 4 seeds, band: quartiles (25 to 75 %)';
+  expect(panelWords(PANEL, COMPARISON.groups)).toEqual({ first: few, others: [band], otherCurves: 1 });
 });
 
 test('the x axis begins at nothing, or at the first point where it is logarithmic', () => {

@@ -94,16 +94,32 @@ export function yExtent(curves: readonly Curve[], window: Range, isShare: boolea
   return [low >= 0 && low - margin < (high - low) * 0.5 ? 0 : low - margin, high + margin];
 }
 
-/** What a panel shows, in words: what most curves are, then those that are otherwise; all by name where no two are alike. */
-export function panelLegend(panel: Panel, groups: readonly Group[]): string {
+/** What a panel shows, in words. */
+export interface PanelWords {
+  /** What most curves are; all of it if that is short. */
+  first: string;
+  /** Each kind of curve that is otherwise. */
+  others: string[];
+  /** How many curves those are. */
+  otherCurves: number;
+}
+
+/** As many letters as stand in two lines above a panel, so that panels side by side begin at the same height. */
+const SHORT_WORDS = 120;
+
+/** What most curves of a panel are, then those that are otherwise; all by name where no two are alike. */
+export function panelWords(panel: Panel, groups: readonly Group[]): PanelWords {
   const labels = new Map(groups.map(({ key, label }) => [key, label]));
   const kinds = new Map<string, string[]>();
   for (const { group, legend } of panel.curves) {
     kinds.set(legend, [...(kinds.get(legend) ?? []), labels.get(group) ?? group]);
   }
-  const [most, ...others] = [...kinds].sort((one, other) => other[1].length - one[1].length);
-  if (most === undefined) return '';
+  const [most, ...rest] = [...kinds].sort((one, other) => other[1].length - one[1].length);
+  if (most === undefined) return { first: '', others: [], otherCurves: 0 };
   const named = ([legend, names]: [string, string[]]) => `${names.join(', ')}: ${legend}`;
-  const isUsual = others.length === 0 || most[1].length > 1;
-  return [isUsual ? most[0] : named(most), ...others.map(named)].join('; ');
+  const first = rest.length === 0 || most[1].length > 1 ? most[0] : named(most);
+  const others = rest.map(named);
+  const all = [first, ...others].join('; ');
+  if (all.length <= SHORT_WORDS) return { first: all, others: [], otherCurves: 0 };
+  return { first, others, otherCurves: panel.curves.length - most[1].length };
 }

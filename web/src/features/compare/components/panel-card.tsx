@@ -6,9 +6,10 @@ import { CurveChart } from '@/components/curve-chart';
 import { Icon } from '@/components/icon';
 import { AXIS_NAMES, formatX, xSteps } from '@/lib/axes';
 import type { Curve } from '@/lib/curves';
+import { formatPlural } from '@/lib/format';
 import { useGrowing } from '@/lib/use-growing';
 import { useSeen } from '@/lib/use-seen';
-import { panelCurves, panelLegend, sourcesOf, yExtent } from '../panels';
+import { type PanelWords, panelCurves, panelWords, sourcesOf, yExtent } from '../panels';
 import { formatTick, type PanelView } from '../view';
 import { CurveTable } from './curve-table';
 import classes from './panels.module.css';
@@ -32,7 +33,7 @@ export const PanelCard = memo(function PanelCard({ panel, view, height, isTable,
       <figcaption className={classes.caption}>
         <div className={classes.title}>
           <h3>{panel.task}</h3>
-          <span className="faint">{panelLegend(panel, groups)}</span>
+          <Words {...panelWords(panel, groups)} />
         </div>
         <ActionIcon
           variant={isTable ? 'light' : 'subtle'}
@@ -59,6 +60,22 @@ export const PanelCard = memo(function PanelCard({ panel, view, height, isTable,
     </figure>
   );
 });
+
+function Words({ first, others, otherCurves }: PanelWords) {
+  return (
+    <>
+      <span className="faint">{first}</span>
+      {others.length > 0 && (
+        <details className="faint">
+          <summary>{formatPlural(otherCurves, 'curve')} of another kind</summary>
+          {others.map((words) => (
+            <p key={words}>{words}</p>
+          ))}
+        </details>
+      )}
+    </>
+  );
+}
 
 interface CurvesProps {
   panel: Panel;
