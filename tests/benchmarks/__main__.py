@@ -75,9 +75,7 @@ def _parse() -> argparse.Namespace:
     parser.add_argument("--json", type=Path, default=NUMBERS, help="where the numbers go")
     hours = PEER_CAP_S / 3600.0
     parser.add_argument("--peer-hours", type=float, default=hours, help="how long a robot's peer may train")
-    parser.add_argument(
-        "--go-on", action="store_true", help="take what a peer, or an interrupted measurement, came to here before"
-    )
+    parser.add_argument("--go-on", action="store_true", help="take what peer and seeds came to here before")
     parser.add_argument("--home", type=Path, help="data directory whose finished runs `quality` reads")
     return parser.parse_args()
 

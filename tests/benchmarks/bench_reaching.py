@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from bench_rows import Measured, Target, row
-from kept_seeds import Reached, forget, reach_each
+from kept_seeds import Reached, reach_each
 from sac_peer import PeerCurve, train_peer
 
 from sldr_core.config import TrainConfig
@@ -59,8 +59,7 @@ def measure_manipulation(
         env_id: the same task of gymnasium-robotics.
         minutes: how long it may take [min].
         cap_s: how long the peer may take [s].
-        take_kept: whether what was trained on this machine before need not be trained again: a peer, and the seeds of a
-            measurement that was interrupted.
+        take_kept: whether what was trained on this machine before, peer or seed, need not be trained again.
     """
     peer = train_peer(task, env_id, LEARNT, cap_s, take_kept)
     reached = reach_each(task, SEEDS, _reach, take_kept)
@@ -74,7 +73,6 @@ def measure_manipulation(
         f"median {statistics.median(waits):.1f} min; {told}",
     )
     yield against_peer(task, reached, peer)
-    forget(task)
 
 
 def against_peer(task: str, reached: Sequence[Reached], peer: PeerCurve) -> Measured:

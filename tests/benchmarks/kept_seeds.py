@@ -1,4 +1,4 @@
-"""How long each seed took, kept until all of them are told: a measurement that is interrupted after hours can go on.
+"""How long each seed took, kept so that a measurement of hours can be interrupted, or told with more time of the peer.
 
 Only what the same code gave on the same machine counts.
 """
@@ -28,13 +28,13 @@ class Reached:
 
 
 def reach_each(task: str, seeds: Sequence[int], reach: Callable[[str, int], Reached], take_kept: bool) -> list[Reached]:
-    """Train each seed of a task, but those that were trained before a measurement was interrupted.
+    """Train each seed of a task, but those that have been trained before.
 
     Args:
         task: what is learnt.
         seeds: of its trainings.
         reach: trains one, given task and seed.
-        take_kept: whether to go on; else all are trained.
+        take_kept: whether those are taken; else all are trained.
     """
     reached = _read(task) if take_kept else {}
     for seed in seeds:
@@ -42,11 +42,6 @@ def reach_each(task: str, seeds: Sequence[int], reach: Callable[[str, int], Reac
             reached[seed] = reach(task, seed)
             _keep(task, reached)
     return [reached[seed] for seed in seeds]
-
-
-def forget(task: str) -> None:
-    """Let the next measurement of a task begin anew."""
-    _file_of(task).unlink(missing_ok=True)
 
 
 def _read(task: str) -> dict[int, Reached]:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import kept_seeds
 import pytest
-from kept_seeds import Reached, forget, reach_each
+from kept_seeds import Reached, reach_each
 
 TAKEN = {0: Reached(60.0, 0.93), 1: Reached(float("inf"), 0.4), 2: Reached(90.0, 1.0)}
 
@@ -48,12 +48,6 @@ def test_an_interrupted_measurement_goes_on_with_the_seeds_that_are_left() -> No
 
 def test_all_are_trained_unless_going_on_is_asked_for() -> None:
     assert _go_on(take_kept=False) == [0, 1, 2]
-
-
-def test_a_measurement_that_was_told_begins_anew() -> None:
-    forget("FetchPush")
-    forget("FetchPush")
-    assert _go_on() == [0, 1, 2]
 
 
 @pytest.mark.parametrize("part", ["machine", "code"])
