@@ -36,26 +36,28 @@ def reach_each(task: str, seeds: Sequence[int], reach: Callable[[str, int], Reac
         reach: trains one, given task and seed.
         take_kept: whether those are taken; else all are trained.
     """
-    reached = _read(task) if take_kept else {}
+    # Asked for once, before: the code may be edited while a seed trains.
+    measured = _what_is_measured()
+    reached = _read(task, measured) if take_kept else {}
     for seed in seeds:
         if seed not in reached:
             reached[seed] = reach(task, seed)
-            _keep(task, reached)
+            _keep(task, measured, reached)
     return [reached[seed] for seed in seeds]
 
 
-def _read(task: str) -> dict[int, Reached]:
+def _read(task: str, measured: str) -> dict[int, Reached]:
     path = _file_of(task)
     kept = json.loads(path.read_text()) if path.exists() else {}
-    if kept.get("measured") != _what_is_measured():
+    if kept.get("measured") != measured:
         return {}
     return {int(seed): Reached(**one) for seed, one in kept["seeds"].items()}
 
 
-def _keep(task: str, reached: dict[int, Reached]) -> None:
+def _keep(task: str, measured: str, reached: dict[int, Reached]) -> None:
     KEPT.mkdir(parents=True, exist_ok=True)
     seeds = {seed: asdict(one) for seed, one in reached.items()}
-    _file_of(task).write_text(json.dumps({"measured": _what_is_measured(), "seeds": seeds}, indent=1) + "\n")
+    _file_of(task).write_text(json.dumps({"measured": measured, "seeds": seeds}, indent=1) + "\n")
 
 
 def _file_of(task: str) -> Path:

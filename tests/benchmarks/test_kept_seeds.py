@@ -61,3 +61,12 @@ def test_seeds_of_another_machine_or_of_other_code_do_not_count(
         (tmp_path / "sldr_core" / "train.py").write_text("")
         monkeypatch.setattr(kept_seeds.sldr_core, "__path__", [str(tmp_path / "sldr_core")])
     assert _go_on() == [0, 1, 2]
+
+
+def test_a_seed_counts_for_what_it_began_with(monkeypatch: pytest.MonkeyPatch) -> None:
+    def changing(_task: str, seed: int) -> Reached:
+        monkeypatch.setattr(kept_seeds, "describe_machine", lambda: "64 cores")
+        return TAKEN[seed]
+
+    reach_each("FetchPush", (0, 1, 2), changing, take_kept=False)
+    assert _go_on() == [0, 1, 2]
