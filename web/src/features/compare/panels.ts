@@ -104,7 +104,7 @@ export interface PanelWords {
   otherCurves: number;
 }
 
-/** As many letters as stand in two lines above a panel, so that panels side by side begin at the same height. */
+/** As many letters as stand in two lines above a panel, so that curves side by side begin at nearly the same height. */
 const SHORT_WORDS = 120;
 
 /** What most curves of a panel are, then those that are otherwise; all by name where no two are alike. */
