@@ -11,7 +11,7 @@ from copy import deepcopy
 from typing import Any
 
 import torch
-from torch import Tensor
+from torch import Tensor, nn
 from torch.nn.utils import get_total_norm
 
 from sldr_core.agent.losses import actor_loss, critic_losses, lowest_return, td_target
@@ -34,6 +34,8 @@ class DdpgAgent:
     Attributes:
         normalizer: running statistics of the visited features.
         actor, critics: the online networks; `critics` is a stack of `S`.
+        averaged_actor: the running average of the actor's weights, by which tests judge (Polyak and Juditsky 1992);
+            the actor itself if `average_rate` is 1.
     """
 
     def __init__(
@@ -56,6 +58,8 @@ class DdpgAgent:
         self.normalizer = Normalizer(view.size).to(device)
         self.actor = Mlp((view.size, *hidden, action_size), generator, squash=True).to(device)
         self.critics = MlpStack(len(self._streams), (view.size + action_size, *hidden, 1), generator).to(device)
+        averages = config.average_rate < 1.0
+        self.averaged_actor = deepcopy(self.actor).requires_grad_(False) if averages else self.actor
         self._target_actor = deepcopy(self.actor).requires_grad_(False)
         self._target_critics = deepcopy(self.critics).requires_grad_(False)
         self._weights = torch.tensor(stream_weights, device=device)
@@ -69,8 +73,13 @@ class DdpgAgent:
 
     @torch.no_grad()
     def act(self, obs: Tensor, goal: Tensor) -> Tensor:
-        """Return the deterministic actions `[..., A]` of the online actor."""
-        return self.actor(self.features(obs.to(self._device), goal.to(self._device))).cpu()
+        """Return the deterministic actions `[..., A]` of the online actor, around which episodes are explored."""
+        return self._act(self.actor, obs, goal)
+
+    @torch.no_grad()
+    def act_averaged(self, obs: Tensor, goal: Tensor) -> Tensor:
+        """Return the deterministic actions `[..., A]` of the averaged actor, which is what a training is tested by."""
+        return self._act(self.averaged_actor, obs, goal)
 
     def frozen_policy(self) -> Callable[[Tensor, Tensor], Tensor]:
         """Return what `act` does now; it goes on doing that while this agent learns.
@@ -110,14 +119,15 @@ class DdpgAgent:
             metrics = self._update_critics(features, batch.action, rewards, next_features)
         # Anew, as a context keeps the weights that it has rounded: the actor would learn from the critics as they were.
         with self._precision():
-            return {**metrics, **self._update_actor(features)}
+            metrics |= self._update_actor(features)
+        if self.averaged_actor is not self.actor:
+            _move(self.averaged_actor, self.actor, self._config.average_rate)
+        return metrics
 
-    @torch.no_grad()
     def sync_targets(self) -> None:
         """Move the target networks towards the online ones by the target rate."""
-        for online, target in ((self.actor, self._target_actor), (self.critics, self._target_critics)):
-            for target_weight, online_weight in zip(target.parameters(), online.parameters(), strict=True):
-                target_weight.lerp_(online_weight, self._config.target_rate)
+        _move(self._target_actor, self.actor, self._config.target_rate)
+        _move(self._target_critics, self.critics, self._config.target_rate)
 
     def state_dict(self) -> dict[str, Any]:
         """Return all that learning goes on from."""
@@ -128,10 +138,15 @@ class DdpgAgent:
         for name, part in self._parts().items():
             part.load_state_dict(state[name])
 
+    def _act(self, actor: Mlp, obs: Tensor, goal: Tensor) -> Tensor:
+        return actor(self.features(obs.to(self._device), goal.to(self._device))).cpu()
+
     def _parts(self) -> dict[str, Any]:
+        averaged = {} if self.averaged_actor is self.actor else {"averaged_actor": self.averaged_actor}
         return {
             "normalizer": self.normalizer,
             "actor": self.actor,
+            **averaged,
             "critics": self.critics,
             "target_actor": self._target_actor,
             "target_critics": self._target_critics,
@@ -204,6 +219,13 @@ class DdpgAgent:
 
     def _precision(self) -> AbstractContextManager[None]:
         return learner_precision(self._device, self._autocast)
+
+
+@torch.no_grad()
+def _move(behind: nn.Module, ahead: nn.Module, rate: float) -> None:
+    """Move the weights of one network towards those of another by a share of the way."""
+    for weight, wanted in zip(behind.parameters(), ahead.parameters(), strict=True):
+        weight.lerp_(wanted, rate)
 
 
 def _lowest_targets(config: AgentConfig, streams: int) -> list[float]:

@@ -42,7 +42,7 @@ class LoopConfig:
     warmup_cycles: Count = 1
     """Cycles of uniformly random actions collected before the first update."""
     test_episodes: Positive = 380
-    """Episodes of each test, with the deterministic actor."""
+    """Episodes of each test, without noise on the actions."""
     recorded_episodes: Annotated[int, Field(ge=0, le=64)] = 6
     """The first episodes of each test that are kept to be looked at (0: none); what is learnt does not depend on it."""
     stop_at_success: Share = 1.0
@@ -67,6 +67,9 @@ class AgentConfig:
     """The same for the critics of all other rewards (0: as the task's)."""
     target_rate: Annotated[float, Field(gt=0.0, le=1.0)] = 0.05
     """Share of the online weights that enters the target networks at each sync (1 - polyak)."""
+    average_rate: Annotated[float, Field(gt=0.0, le=1.0)] = 1.0
+    """Share of the actor's weights that enters its average at each update; tests and kept policies act by the average
+    (1: by the actor as it is)."""
     action_l2: Weight = 1.0
     """Weight of the mean squared action in the actor's loss."""
 

@@ -79,9 +79,9 @@ PRESETS: dict[str, Preset] = {
                     "batch_size": 512,
                     "test_episodes": 114,
                     "stop_at_success": 0.95,
-                    "stop_after_tests": 2,
+                    "stop_after_tests": 3,
                 },
-                "agent": {**QUICK_AGENT, "learning_rate": 2e-3},
+                "agent": {**QUICK_AGENT, "learning_rate": 2e-3, "average_rate": 0.0025},
                 "replay": {"still_weight": 0.1, "met_weight": 0.05},
             },
             locomotion={

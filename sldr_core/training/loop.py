@@ -155,7 +155,7 @@ class _Loop:
 
     def _test(self) -> dict[str, float]:
         counters = self._counters
-        act = numpy_policy(self._parts.agent.act)
+        act = numpy_policy(self._parts.agent.act_averaged)
         witness = Witness(self._parts.test_envs, self._loop.recorded_episodes)
         result = run_test(self._parts.test_envs, act, self._loop.test_episodes, self._check, witness)
         rate = result.success_rate
@@ -232,7 +232,7 @@ def _locomotion_model(parts: Parts, measured: Measured) -> LocomotionModel:
     assert parts.inverse is not None
     nets = LocomotionNets(parts.config, torch.Generator())
     nets.normalizer.load_state_dict(parts.agent.normalizer.state_dict())
-    nets.policy.load_state_dict(parts.agent.actor.state_dict())
+    nets.policy.load_state_dict(parts.agent.averaged_actor.state_dict())
     nets.critic.load_state_dict(parts.agent.critics.state_dict())
     nets.transition_normalizer.load_state_dict(parts.inverse.normalizer.state_dict())
     nets.inverse.load_state_dict(parts.inverse.net.state_dict())

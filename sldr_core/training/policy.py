@@ -26,7 +26,7 @@ POLICY_KIND = "policy"
 
 @dataclass(frozen=True)
 class Policy:
-    """Act as a training's deterministic actor did.
+    """Act as a training did in its tests, without noise.
 
     Attributes:
         config: what was trained.
@@ -50,7 +50,7 @@ class Policy:
 
 
 def write_policy(path: Path, parts: Parts, counters: Counters) -> None:
-    """Write the training's online actor to `path`."""
+    """Write the actor that the training is tested by to `path`."""
     save_tensors(
         path,
         {
@@ -59,7 +59,7 @@ def write_policy(path: Path, parts: Parts, counters: Counters) -> None:
             "epoch": counters.cycle // parts.config.loop.cycles_per_epoch,
             "success_rate": counters.test_success_rate,
             "normalizer": parts.agent.normalizer.state_dict(),
-            "actor": parts.agent.actor.state_dict(),
+            "actor": parts.agent.averaged_actor.state_dict(),
         },
     )
 
@@ -93,7 +93,8 @@ def _states(content: dict[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
     if content["kind"] == POLICY_KIND:
         return content["normalizer"], content["actor"]
     if content["kind"] == CHECKPOINT_KIND:
-        return content["agent"]["normalizer"], content["agent"]["actor"]
+        agent: dict[str, Any] = content["agent"]
+        return agent["normalizer"], agent.get("averaged_actor", agent["actor"])
     nets: dict[str, Any] = content["nets"]
     return _below(nets, "normalizer."), _below(nets, "policy.")
 

@@ -30,7 +30,7 @@ TINY = {
         "batch_size": 16,
         "test_episodes": 3,
     },
-    "agent": {"hidden_sizes": [8, 8]},
+    "agent": {"hidden_sizes": [8, 8], "average_rate": 0.25},
     "replay": {"capacity": 160},
     "rnd": {"outputs": 8},
     "curriculum": {"group_size": 8, "candidates": 6, "kept": 3},

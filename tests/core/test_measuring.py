@@ -143,7 +143,7 @@ def test_test_episodes_change_neither_normaliser_nor_memory_nor_training_scenes(
     normalizer = parts.agent.normalizer
     before = normalizer.mean.clone(), normalizer.count.clone(), parts.buffer.written, parts.envs.state()
 
-    run_test(parts.test_envs, numpy_policy(parts.agent.act), 5, nothing)
+    run_test(parts.test_envs, numpy_policy(parts.agent.act_averaged), 5, nothing)
 
     assert (normalizer.mean == before[0]).all()
     assert normalizer.count == before[1]

@@ -50,7 +50,7 @@ def nothing() -> None:
 def record(parts: Parts, episodes: int = 5) -> tuple[RecordedTest, Witness, int]:
     """Hold a test and record it; return the number of its successes as well."""
     witness = Witness(parts.test_envs, KEPT)
-    result = run_test(parts.test_envs, numpy_policy(parts.agent.act), episodes, nothing, witness)
+    result = run_test(parts.test_envs, numpy_policy(parts.agent.act_averaged), episodes, nothing, witness)
     return EpisodeRecording(parts).record(witness.courses, 7, 700), witness, result.successes
 
 
@@ -92,7 +92,9 @@ def test_the_first_episodes_of_a_test_are_recorded_whole(parts: Parts, recorded:
         np.testing.assert_array_equal(episode.achieved[0], seen.achieved[0].astype(np.float32))
         np.testing.assert_allclose(episode.distance, np.linalg.norm(episode.achieved - episode.goal, axis=1), atol=1e-6)
         np.testing.assert_array_equal(episode.success, episode.distance < 0.05)
-        acted = parts.agent.act(torch.from_numpy(episode.obs[:-1]), torch.from_numpy(episode.goal).float().expand(8, 3))
+        acted = parts.agent.act_averaged(
+            torch.from_numpy(episode.obs[:-1]), torch.from_numpy(episode.goal).float().expand(8, 3)
+        )
         np.testing.assert_allclose(episode.action, acted.numpy(), atol=1e-5)
 
 

@@ -8,6 +8,7 @@ export const SETTING_EQUATIONS: Readonly<Record<string, EquationName>> = {
   'agent.lowest_auxiliary_return': 'critic',
   'agent.learning_rate': 'critic',
   'agent.target_rate': 'critic',
+  'agent.average_rate': 'actor',
   'agent.action_l2': 'actor',
   'exploration.random_action_probability': 'explore',
   'exploration.noise_std': 'explore',
