@@ -71,14 +71,14 @@ def _curve(*success: float) -> PeerCurve:
 
 def test_a_peer_that_has_learnt_is_compared_with_its_time() -> None:
     reached = [bench_reaching.Reached(12.0, 1.0), bench_reaching.Reached(6.0, 1.0), bench_reaching.Reached(INFINITY, 0)]
-    measured = bench_reaching.against_peer("FetchPush", reached, _curve(0.2, 0.94))
+    measured = bench_reaching.against_peer("FetchPush", reached, _curve(0.2, 0.94), 10.0)
     assert (measured.value, measured.low, measured.high) == (10.0, 0.0, 20.0)
     assert measured.detail == "the peer came to 94% after 2 min and 10,000 steps"
     assert measured.as_json()["curve"] == {"steps": [5_000, 10_000], "seconds": [60.0, 120.0], "success": [0.2, 0.94]}
 
 
 def test_a_peer_that_has_not_learnt_counts_with_all_its_time() -> None:
-    measured = bench_reaching.against_peer("FetchPush", [bench_reaching.Reached(60.0, 1.0)], _curve(0.2, 0.3))
+    measured = bench_reaching.against_peer("FetchPush", [bench_reaching.Reached(60.0, 1.0)], _curve(0.2, 0.3), 10.0)
     assert measured.value == 10.0
     assert "stood at 30% after 2 min and 10,000 steps, so it takes longer yet" in measured.detail
     assert _curve().told(0.9) == "the peer was not tested within 10 min"
