@@ -24,6 +24,9 @@ TESTED = 380
 LEARNT = 0.9
 """Test success that counts."""
 
+TIMES = 10.0
+"""How many times as long a peer should take, if it is given the time."""
+
 PEER_CAP_S = 2 * 3600.0
 """A peer that has not learnt by then is stopped [s]."""
 
@@ -48,7 +51,7 @@ def measure_locomotion() -> Iterator[Measured]:
 
 
 def measure_manipulation(
-    task: str, env_id: str, minutes: float, times: float, cap_s: float = PEER_CAP_S, take_kept: bool = False
+    task: str, env_id: str, minutes: float, cap_s: float = PEER_CAP_S, take_kept: bool = False
 ) -> Iterator[Measured]:
     """Train a peer, then object and robot, until nine of ten test episodes end at the goal, three seeds (hours).
 
@@ -58,7 +61,6 @@ def measure_manipulation(
         task: what is to be learnt.
         env_id: the same task of gymnasium-robotics.
         minutes: how long it may take [min].
-        times: how many times as long the peer should take at least.
         cap_s: how long the peer may take [s].
         take_kept: whether what was trained on this machine before, peer or seed, need not be trained again.
     """
@@ -73,7 +75,12 @@ def measure_manipulation(
         Target("at most", minutes),
         f"median {statistics.median(waits):.1f} min; {told}",
     )
-    yield against_peer(task, reached, peer, times)
+    yield against_peer(task, reached, peer, times_wanted(minutes))
+
+
+def times_wanted(minutes: float) -> float:
+    """Return how many times as long the peer should take: no more than one that is stopped can show."""
+    return min(TIMES, PEER_CAP_S / (60.0 * minutes))
 
 
 def against_peer(task: str, reached: Sequence[Reached], peer: PeerCurve, times: float) -> Measured:

@@ -77,6 +77,11 @@ def test_a_peer_that_has_learnt_is_compared_with_its_time() -> None:
     assert measured.as_json()["curve"] == {"steps": [5_000, 10_000], "seconds": [60.0, 120.0], "success": [0.2, 0.94]}
 
 
+def test_no_more_is_asked_of_a_peer_than_its_two_hours_can_show() -> None:
+    assert bench_reaching.times_wanted(5.0) == 10.0
+    assert bench_reaching.times_wanted(25.0) == pytest.approx(4.8)
+
+
 def test_a_peer_that_has_not_learnt_counts_with_all_its_time() -> None:
     measured = bench_reaching.against_peer("FetchPush", [bench_reaching.Reached(60.0, 1.0)], _curve(0.2, 0.3), 10.0)
     assert measured.value == 10.0

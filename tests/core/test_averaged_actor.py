@@ -33,7 +33,7 @@ def trained_parts(rate: float, directory: Path) -> Parts:
     return parts
 
 
-def test_the_average_is_the_weighted_sum_of_all_actors_so_far(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_average_is_the_weighted_sum_of_all_actors_so_far(tmp_path: Path) -> None:
     parts = collected_parts(config_with(RATE), tmp_path)
     actors: list[list[Tensor]] = []
 
