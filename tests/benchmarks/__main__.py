@@ -11,6 +11,7 @@ from pathlib import Path
 from bench_clients import measure_clients
 from bench_epoch import measure_epoch
 from bench_gpu import measure_gpu
+from bench_growth import measure_growth
 from bench_learner import measure_learner
 from bench_metrics import measure_metrics
 from bench_quality import measure_quality
@@ -33,6 +34,7 @@ GROUPS: dict[str, Callable[[], Iterator[Measured]]] = {
     "service": measure_service,
     "two-at-once": measure_two_at_once,
     "clients": measure_clients,
+    "growth": measure_growth,
     "locomotion": measure_locomotion,
     "push": partial(measure_manipulation, "FetchPush", "FetchPush-v4", 5.0),
     "pick-and-place": partial(measure_manipulation, "FetchPickAndPlace", "FetchPickAndPlace-v4", 25.0),

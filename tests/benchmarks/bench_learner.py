@@ -42,8 +42,8 @@ def measure_learner() -> Iterator[Measured]:
 def _against_stable_baselines(root: Path) -> Iterator[Measured]:
     peer = _peer()
     for precision, target in (("float32", 1.2), ("bfloat16", 3.0)):
-        parts = _parts(root, "FetchPush", "her", precision)
-        pairs = time_pairs(lambda parts=parts: _learn(parts), lambda: peer.train(UPDATES, BATCH))
+        parts = learning_training(root, "FetchPush", "her", precision)
+        pairs = time_pairs(lambda parts=parts: learn_cycle(parts), lambda: peer.train(UPDATES, BATCH))
         yield row(
             f"one HER update at {BATCH}, {precision}, against Stable-Baselines3's DDPG",
             "x",
@@ -55,7 +55,7 @@ def _against_stable_baselines(root: Path) -> Iterator[Measured]:
 
 def _against_matrix_product(root: Path) -> Measured:
     """Compare floating point operations a second with those of one product of the hidden layers' size."""
-    parts = _parts(root, "FetchPush", "her", "float32")
+    parts = learning_training(root, "FetchPush", "her", "float32")
     batch, rewards = _one_batch(parts)
     left, right = torch.randn(BATCH, 256), torch.randn(256, 256)
     product_flops = 2.0 * BATCH * 256 * 256
@@ -79,9 +79,14 @@ def _against_matrix_product(root: Path) -> Measured:
 
 def _against_her(root: Path) -> Measured:
     """Pay the robot by the model that a launch takes, which is smaller than one of the paper's size."""
-    her, large = _parts(root, "FetchPush", "her", "float32"), _parts(root, "FetchPush", "her-sldr", "float32")
-    shipped = _parts(root, "FetchPush", "her-sldr", "float32", SHIPPED / "FetchPush.pt")
-    pairs, of_large = (time_pairs(lambda sldr=sldr: _learn(sldr), lambda: _learn(her)) for sldr in (shipped, large))
+    her, large = (
+        learning_training(root, "FetchPush", "her", "float32"),
+        learning_training(root, "FetchPush", "her-sldr", "float32"),
+    )
+    shipped = learning_training(root, "FetchPush", "her-sldr", "float32", SHIPPED / "FetchPush.pt")
+    pairs, of_large = (
+        time_pairs(lambda sldr=sldr: learn_cycle(sldr), lambda: learn_cycle(her)) for sldr in (shipped, large)
+    )
     return row(
         "a her-sldr update against a her update",
         "x",
@@ -93,16 +98,16 @@ def _against_her(root: Path) -> Measured:
 
 
 def _share_of_sampling(root: Path, task: str) -> Measured:
-    parts = _parts(root, task, "her", "float32")
+    parts = learning_training(root, task, "her", "float32")
     for _ in range(EPISODES):
         collect_random(parts, _carry_on)
     watch = Stopwatch()
     timed = replace(parts, sampler=_TimedSampler(parts.sampler, watch))
-    _learn(timed)
+    learn_cycle(timed)
     shares: list[float] = []
     for _ in range(REPETITIONS):
         watch.total_s = 0.0
-        whole_s = seconds_of(lambda: _learn(timed))
+        whole_s = seconds_of(lambda: learn_cycle(timed))
         shares.append(100.0 * watch.total_s / whole_s)
     return row(
         f"{task}: sampling and relabelling a batch of {BATCH}, of the update",
@@ -121,17 +126,29 @@ class _TimedSampler:
         self.sample = watch.around(sampler.sample)
 
 
-def _parts(root: Path, task: str, method: str, precision: str, model: Path | None = None) -> Parts:
-    """Return a training whose cycle has few updates, and whose replay takes little room."""
+def learning_training(
+    root: Path, task: str, method: str, precision: str = "float32", model: Path | None = None, batch: int = BATCH
+) -> Parts:
+    """Return a training whose cycle has few updates, and whose replay takes little room.
+
+    Args:
+        root: of its files.
+        task: what the robot learns.
+        method: by which it learns.
+        precision: `float32` or `bfloat16`.
+        model: the locomotion model; one of the paper's size that has learnt nothing if None.
+        batch: transitions of an update.
+    """
     settings = {
         "compute": {"precision": precision},
         "replay": {"capacity": 100_000},
-        "loop": {"updates_per_cycle": UPDATES},
+        "loop": {"updates_per_cycle": UPDATES, "batch_size": batch},
     }
     return paper_training(root, task, method, settings, model)
 
 
-def _learn(parts: Parts) -> None:
+def learn_cycle(parts: Parts) -> None:
+    """Make the updates of one cycle."""
     learn(parts, 0, _carry_on)
 
 

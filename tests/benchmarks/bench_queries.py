@@ -110,7 +110,7 @@ def measure_queries() -> Iterator[Measured]:
     """Fill both stores, then ask both in turns, each in its own process; and ask ours over HTTP as well."""
     with tempfile.TemporaryDirectory() as name, open_mlflow(Path(name)) as peer:
         settings = Settings(home=Path(name), database_url=sqlite_url(Path(name)))
-        _fill(settings)
+        fill_store(settings, RUNS, LOGGED)
         kinds = {"tasks": list(TASKS), "methods": list(METHODS)}
         peer.ask("fill", runs=RUNS, epochs=EPOCHS, names=metric_names(LOGGED), **kinds)
         app = create_app(settings, Path(name) / "no-page")
@@ -119,10 +119,11 @@ def measure_queries() -> Iterator[Measured]:
                 yield from _measure(question, app, client, peer)
 
 
-def _fill(settings: Settings) -> None:
+def fill_store(settings: Settings, runs: int, metrics: int) -> None:
+    """Put so many finished runs into a store, each with so many metrics."""
     with closing(open_database(settings)) as db:
-        launch_many(db, RUNS)
-        train_many(db, RUNS, EPOCHS, LOGGED)
+        launch_many(db, runs)
+        train_many(db, runs, EPOCHS, metrics)
 
 
 def _measure(question: Question, app: FastAPI, client: httpx.Client, peer: MlflowProcess) -> Iterator[Measured]:

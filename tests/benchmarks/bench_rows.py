@@ -38,7 +38,8 @@ class Measured:
     low: float
     high: float
     """Least and greatest of the repetitions."""
-    target: Target
+    target: Target | None
+    """None where a row tells how something grows, which nobody can call good or bad."""
     detail: str
     """The figures behind it, in words."""
     curve: Mapping[str, Sequence[float]] | None = None
@@ -46,8 +47,8 @@ class Measured:
 
     @property
     def is_met(self) -> bool:
-        """Whether the target is reached."""
-        return self.target.is_met(self.value)
+        """Whether the target is reached, if there is one."""
+        return self.target is None or self.target.is_met(self.value)
 
     def as_json(self) -> dict[str, Any]:
         """Return everything as plain values."""
@@ -57,14 +58,15 @@ class Measured:
 def as_measured(kept: Mapping[str, Any]) -> Measured:
     """Return a row of the plain values that it was kept as."""
     values = {name: value for name, value in kept.items() if name != "met"}
-    return Measured(**{**values, "target": Target(**kept["target"])})
+    target = kept["target"]
+    return Measured(**{**values, "target": target and Target(**target)})
 
 
 def row(
     what: str,
     unit: str,
     values: Sequence[float],
-    target: Target,
+    target: Target | None,
     detail: str,
     curve: Mapping[str, Sequence[float]] | None = None,
 ) -> Measured:

@@ -10,7 +10,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 import httpx
@@ -31,8 +31,11 @@ GZIP_LEVEL = 6
 COMPILING = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
 """The environment, in which Python keeps what it has compiled, as it does unless told otherwise."""
 
-TRAINING = "--task FetchPush --phase locomotion --method her --preset quick --set compute.threads=1 --set loop.epochs=2"
+TRAINING = "--task FetchPush --phase locomotion --method her --preset quick --set compute.threads=1"
 """A training that fits a core, twice of which fit two."""
+
+EPOCHS = 2
+"""Of each of the two."""
 
 
 def measure_service() -> Iterator[Measured]:
@@ -54,8 +57,8 @@ def measure_two_at_once() -> Iterator[Measured]:
     """Train two runs beside each other, and one after the other."""
     gains, told = [], []
     for _ in range(REPETITIONS):
-        alone_s = _train([0]) + _train([1])
-        together_s = _train([0, 1])
+        alone_s = train_beside([0]) + train_beside([1])
+        together_s = train_beside([0, 1])
         gains.append(alone_s / together_s)
         told.append(f"{together_s:.0f} s against {alone_s:.0f} s")
     yield row(
@@ -125,11 +128,11 @@ def with_imports(files: Iterable[Path]) -> set[Path]:
     return found
 
 
-def _train(seeds: list[int]) -> float:
+def train_beside(seeds: Sequence[int], epochs: int = EPOCHS) -> float:
     """Train runs beside each other; return how long that takes [s]."""
     with tempfile.TemporaryDirectory() as name:
         begun = time.perf_counter()
-        command = [sys.executable, "-m", "worker.cli", "train", *TRAINING.split()]
+        command = [sys.executable, "-m", "worker.cli", "train", *TRAINING.split(), "--set", f"loop.epochs={epochs}"]
         processes = [
             subprocess.Popen(
                 [*command, "--seed", str(seed), "--out", str(Path(name) / str(seed))],

@@ -50,7 +50,7 @@ def measure_locomotion_scenes() -> Iterator[Measured]:
 
 def _without_robot(task: str) -> Measured:
     alone, beside = _locomotion_envs(task, "absent"), _locomotion_envs(task, "still")
-    pairs = time_pairs(lambda: _run_episode(alone), lambda: _run_episode(beside))
+    pairs = time_pairs(lambda: run_episode(alone), lambda: run_episode(beside))
     rate = SIMULATIONS * alone.episode_length / statistics.median(pairs.ours)
     return row(
         f"{task}, locomotion: scene without robot against with",
@@ -75,7 +75,7 @@ def _against_gymnasium(task: str, peer_id: str) -> Measured:
             peer.step(rng.uniform(-1.0, 1.0, (PEER_WORKERS, envs.action_size)).astype(np.float32))
 
     try:
-        pairs = time_pairs(lambda: _run_episode(envs), run_peer)
+        pairs = time_pairs(lambda: run_episode(envs), run_peer)
     finally:
         peer.close()
     steps, peer_steps = SIMULATIONS * envs.episode_length, PEER_WORKERS * envs.episode_length
@@ -119,7 +119,8 @@ def _against_physics(task: str) -> Measured:
     )
 
 
-def _run_episode(envs: Envs) -> None:
+def run_episode(envs: Envs) -> None:
+    """Run one episode of random actions in each simulation, with observations, rewards and success."""
     envs.reset()
     _run_steps(envs)
 

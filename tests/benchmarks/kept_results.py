@@ -85,6 +85,8 @@ def _as_table(rows: Sequence[Measured]) -> str:
 
 
 def _verdict(measured: Measured) -> str:
+    if measured.target is None:
+        return ""
     return "met" if measured.is_met else "SHORT"
 
 
@@ -93,4 +95,6 @@ def _value(measured: Measured) -> str:
 
 
 def _target(measured: Measured) -> str:
+    if measured.target is None:
+        return "none"
     return f"{measured.target.direction} {measured.target.value:g} {measured.unit}"

@@ -213,6 +213,15 @@ def test_groups_are_kept_and_told_in_their_order_with_day_and_machine(tmp_path: 
     assert "| at least 2 x | **1.5 x** (1 to 2) | SHORT | 1 against 2 |" in told[1]
 
 
+def test_a_row_that_tells_how_something_grows_is_neither_met_nor_short(tmp_path: Path) -> None:
+    path = tmp_path / "bench.json"
+    grown = KeptGroup("2026-01-02", "2 cores", (row("an update at 512", "x", [0.1], None, "17 against 170 ms"),))
+    keep_results(path, {"growth": grown})
+    assert read_results(path) == {"growth": grown}
+    assert grown.rows[0].is_met
+    assert "| none | **0.1 x** (0.1 to 0.1) |  | 17 against 170 ms |" in as_tables({"growth": grown}, ["growth"])[1]
+
+
 def test_a_row_is_kept_before_the_next_one_is_measured(tmp_path: Path) -> None:
     path = tmp_path / "bench.json"
     before, other, new = (row(name, "x", [1.0], Target("at least", 2.0), "") for name in ("before", "other", "new"))
