@@ -1,4 +1,4 @@
-"""How the cost grows: simulations, objects, batches, runs at once and stored runs, each size beside the usual one."""
+"""How the cost grows: simulations, objects, batches, stored runs and runs at once, each size beside the usual one."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ MORE_OBJECTS = {2: "FetchStack2", 3: "FetchStack3"}
 OTHER_BATCHES = (256, 512, 1216, 2432, 9728)
 """Beside the paper's."""
 
-RUNS_AT_ONCE = (2, 4)
-"""Beside one alone."""
-
 STORED_RUNS, OTHER_STORED_RUNS = 1_000, (100, 10_000)
 LOGGED = 5
 """Metrics of each run in a store."""
+
+RUNS_AT_ONCE = (2, 4)
+"""Beside one alone."""
 
 
 def measure_growth() -> Iterator[Measured]:
@@ -45,9 +45,9 @@ def measure_growth() -> Iterator[Measured]:
     with tempfile.TemporaryDirectory() as name:
         yield from _with_objects(Path(name))
         yield from _with_batch(Path(name))
-    yield from _with_runs_at_once()
     with tempfile.TemporaryDirectory() as name:
         yield from _with_stored_runs(Path(name))
+    yield from _with_runs_at_once()
 
 
 def _with_simulations() -> Iterator[Measured]:
@@ -79,6 +79,15 @@ def _with_batch(root: Path) -> Iterator[Measured]:
         yield _growth(f"FetchPush: a her update at {batch}, against {BATCH}", _each(pairs, UPDATES, UPDATES))
 
 
+def _with_stored_runs(root: Path) -> Iterator[Measured]:
+    with closing(_filled(root, STORED_RUNS)) as usual:
+        for count in OTHER_STORED_RUNS:
+            with closing(_filled(root, count)) as other:
+                for question in QUESTIONS:
+                    pairs = time_pairs(partial(question.look_up, other), partial(question.look_up, usual))
+                    yield _growth(f"{question.what}: {count:,} runs in the store, against {STORED_RUNS:,}", pairs)
+
+
 def _with_runs_at_once() -> Iterator[Measured]:
     alone: list[float] = []
     beside: dict[int, list[float]] = {count: [] for count in RUNS_AT_ONCE}
@@ -94,15 +103,6 @@ def _with_runs_at_once() -> Iterator[Measured]:
             None,
             f"{statistics.median(seconds):.3g} against {statistics.median(alone):.3g} s until all have ended",
         )
-
-
-def _with_stored_runs(root: Path) -> Iterator[Measured]:
-    with closing(_filled(root, STORED_RUNS)) as usual:
-        for count in OTHER_STORED_RUNS:
-            with closing(_filled(root, count)) as other:
-                for question in QUESTIONS:
-                    pairs = time_pairs(partial(question.look_up, other), partial(question.look_up, usual))
-                    yield _growth(f"{question.what}: {count:,} runs in the store, against {STORED_RUNS:,}", pairs)
 
 
 def _growth(what: str, pairs: Pairs, further: str = "") -> Measured:

@@ -149,6 +149,7 @@ def test_quality_is_compared_with_the_lower_quartile(capsys: pytest.CaptureFixtu
     runs = {settings: [Finished(rate, len(rates)) for rate in rates] for settings, rates in ended.items()}
     compared = {measured.what: measured for measured in compare_quality({("FetchPush", "her"): runs})}
     quick = compared["FetchPush, her, `quick` in float32: test success"]
+    assert quick.target is not None
     assert (quick.value, quick.target.value, quick.is_met) == (pytest.approx(86.0), pytest.approx(85.0), True)
     assert quick.detail == "`paper` in float32: 90.0 % (85.0 to 95.0), 5 and 3 seeds of at most 5 and 3 epochs"
     assert not compared["FetchPush, her, `paper` in bfloat16: test success"].is_met
