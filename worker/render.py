@@ -17,7 +17,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Generator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from sldr_core.config import TASKS, find_task
@@ -108,8 +108,10 @@ def render_all_pictures(home: Path) -> list[Path]:
 def _sweep(directory: Path) -> None:
     """Remove what drawings that were killed have left; one that is so old cannot be at work any more."""
     for left in directory.glob(f"{UNFINISHED}*"):
-        if time.time() - left.stat().st_mtime > 2 * DRAWING_TIMEOUT_S:
-            shutil.rmtree(left, ignore_errors=True)
+        # One that was at work when the directory was listed may have ended since.
+        with suppress(FileNotFoundError):
+            if time.time() - left.stat().st_mtime > 2 * DRAWING_TIMEOUT_S:
+                shutil.rmtree(left, ignore_errors=True)
 
 
 def main() -> int:

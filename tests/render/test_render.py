@@ -72,6 +72,17 @@ def test_what_killed_drawings_left_is_removed_and_nothing_of_those_at_work(tmp_p
     assert (left.exists(), at_work.exists()) == (False, True)
 
 
+def test_a_drawing_that_ended_since_the_directory_was_listed_is_no_error(tmp_path):
+    pictures = tmp_path / "pictures"
+    pictures.mkdir()
+    for task in TASKS:
+        (pictures / f"{task}.png").write_text("drawn before")
+    # Listed, but gone when it is looked at.
+    (pictures / ".drawing-ended").symlink_to(pictures / "gone")
+
+    assert render.render_all_pictures(tmp_path) == []
+
+
 def test_a_picture_takes_the_size_asked_for_and_leaves_nothing_beside_it(tmp_path):
     path = tmp_path / "new" / "push.png"
     render.render_task_picture("FetchPush", path, 160, 90)
