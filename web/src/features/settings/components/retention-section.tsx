@@ -53,7 +53,7 @@ export function RetentionSection({ role }: { role: Role }) {
       </fieldset>
       <NumberInput
         label="Only of runs that ended at least so many days ago"
-        w={220}
+        classNames={{ wrapper: classes.days }}
         min={0}
         max={LONGEST_DAYS}
         allowDecimal={false}

@@ -71,16 +71,18 @@ function AddForm({ onAdded }: { onAdded: (webhook: AddedWebhook) => void }) {
         error={adding.error ? sentence(adding.error) : undefined}
         onChange={(event) => setUrl(event.currentTarget.value)}
       />
-      {EVENTS.map(({ event, label }) => (
-        <Checkbox
-          key={event}
-          label={label}
-          checked={events.includes(event)}
-          onChange={({ currentTarget: { checked } }) =>
-            setEvents((others) => (checked ? [...others, event] : others.filter((other) => other !== event)))
-          }
-        />
-      ))}
+      <div className={classes.events}>
+        {EVENTS.map(({ event, label }) => (
+          <Checkbox
+            key={event}
+            label={label}
+            checked={events.includes(event)}
+            onChange={({ currentTarget: { checked } }) =>
+              setEvents((others) => (checked ? [...others, event] : others.filter((other) => other !== event)))
+            }
+          />
+        ))}
+      </div>
       <Button type="submit" loading={adding.isPending} disabled={url.trim() === '' || events.length === 0}>
         Add
       </Button>
