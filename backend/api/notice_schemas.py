@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from datetime import datetime
-from typing import Annotated
+from typing import Annotated, get_args
 
 from pydantic import Field
 
@@ -38,7 +38,7 @@ class NewWebhook(Strict):
     """An address that shall be told."""
 
     url: Annotated[str, Field(min_length=1, max_length=LONGEST_URL)]
-    events: Annotated[list[NoticeEvent], Field(min_length=1, max_length=2)]
+    events: Annotated[list[NoticeEvent], Field(min_length=1, max_length=len(get_args(NoticeEvent)))]
 
 
 class Delivery(Strict):
