@@ -25,9 +25,9 @@ function Reconnecting({ since }: { since: number }) {
   const now = useBrowserNow();
   return (
     <Banner>
-      Reconnecting: the server does not answer.
-      {since > 0 && ` What you see was last confirmed ${formatAgo((now - since) / 1000)}.`} Is <code>sldr serve</code>{' '}
-      running?
+      Reconnecting: the server does not answer. Is <code>sldr serve</code> running?
+      {/* It counts, and would be read out each second. */}
+      {since > 0 && <span aria-hidden> What you see was last confirmed {formatAgo((now - since) / 1000)}.</span>}
     </Banner>
   );
 }

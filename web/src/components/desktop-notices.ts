@@ -2,6 +2,7 @@
 import { useLocalStorage } from '@mantine/hooks';
 import { useQuery } from '@tanstack/react-query';
 import { useEffect, useRef } from 'react';
+import type { Notice } from '@/client/schema.gen';
 import { client, unwrap } from '@/lib/api';
 import { noticeKey, untold } from '@/lib/notices';
 
@@ -56,13 +57,24 @@ export function useDesktopNotices(open: (path: string) => void): void {
     watch.current = { wanted, begun, since };
     const notices = data.notices.filter(({ at }) => Date.parse(at) > begun);
     for (const notice of untold(notices, told.current)) {
-      const shown = new Notification('SLDR', { body: notice.message, tag: noticeKey(notice) });
+      const shown = show(notice);
+      if (shown === null) continue;
       shown.onclick = () => {
         window.focus();
         opening.current(notice.path);
       };
     }
   }, [data]);
+}
+
+/** Show one; some browsers have notifications and let no page make them, which only trying tells. */
+function show(notice: Notice): Notification | null {
+  try {
+    return new Notification('SLDR', { body: notice.message, tag: noticeKey(notice) });
+  } catch (error) {
+    if (error instanceof TypeError) return null;
+    throw error;
+  }
 }
 
 /** From which moment on what happens is shown. */

@@ -1,4 +1,5 @@
 /** Where the robot's runs take their locomotion models from. */
+import { useState } from 'react';
 import { ChoiceCards } from '@/components/choice-cards';
 
 const CARDS = [
@@ -17,8 +18,9 @@ interface Props {
 }
 
 export function LocomotionChoice({ value, problem, onChange }: Props) {
-  const isNamed = CARDS.every((card) => card.value !== value);
-  const named = { value, title: 'runs', summary: `Take the models of these locomotion runs: ${value}.` };
+  // Once named, runs stay among the choices: passing over another card must not lose them.
+  const [named, setNamed] = useState<string>();
+  if (value !== named && CARDS.every((card) => card.value !== value)) setNamed(value);
   return (
     <ChoiceCards
       legend="Locomotion models"
@@ -26,7 +28,11 @@ export function LocomotionChoice({ value, problem, onChange }: Props) {
       value={value}
       problem={problem}
       onChange={onChange}
-      cards={isNamed ? [...CARDS, named] : CARDS}
+      cards={named === undefined ? CARDS : [...CARDS, runsNamed(named)]}
     />
   );
+}
+
+function runsNamed(value: string) {
+  return { value, title: 'runs', summary: `Take the models of these locomotion runs: ${value}.` };
 }

@@ -26,7 +26,9 @@ export function PriorityField({ value, label, onSet, isEager = false }: Props) {
     field.current?.select();
   }, [isEager]);
   const take = (): void => {
-    if (typeof typed === 'number' && typed !== value) onSet(typed).catch(() => setTyped(null));
+    // What begins with a zero is handed on as it was typed.
+    const wanted = typed === null || typed === '' ? null : Number(typed);
+    if (wanted !== null && Number.isInteger(wanted) && wanted !== value) onSet(wanted).catch(() => setTyped(null));
     else setTyped(null);
   };
   return (

@@ -19,8 +19,14 @@ export interface RunActing {
   readonly question: ReactNode;
 }
 
-/** @param onDone called with the ids for which it was done, unless one has left by then */
-export function useRunActing(onDone?: (action: Action, runIds: readonly string[]) => void): RunActing {
+/**
+ * @param onDone called with the ids for which it was done, unless one has left by then
+ * @param isFresh whether what is known of a run is what it is now; one that is not may have begun to train
+ */
+export function useRunActing(
+  onDone?: (action: Action, runIds: readonly string[]) => void,
+  isFresh: (runId: string) => boolean = () => true,
+): RunActing {
   const toast = useToast();
   const complain = useComplaint();
   const wishes = useRunActions();
@@ -41,7 +47,7 @@ export function useRunActing(onDone?: (action: Action, runIds: readonly string[]
     wishes.mutateAsync({ action, runIds }, { onSuccess }).then(tell, complain);
   };
   const act = (action: Action, runs: readonly Actable[]): void => {
-    if (action === 'cancel' && runs.some((run) => run.state === 'running')) setAsked(runs);
+    if (action === 'cancel' && runs.some((run) => run.state === 'running' || !isFresh(run.id))) setAsked(runs);
     else
       send(
         action,

@@ -39,6 +39,9 @@ export class Unreachable extends Error {
   }
 }
 
+/** What a proxy answers in place of a server that is away. */
+const AWAY: readonly number[] = [502, 503, 504];
+
 interface Answer<T> {
   data?: T;
   error?: unknown;
@@ -51,6 +54,7 @@ export async function unwrap<T>(request: Promise<Answer<T>>): Promise<NonNullabl
     if (cause instanceof DOMException && cause.name === 'AbortError') throw cause;
     throw new Unreachable(cause);
   });
+  if (AWAY.includes(response.status) && !isRefusal(error)) throw new Unreachable(`status ${response.status}`);
   if (!response.ok) throw new Refused(response.status, problemsOf(error, response.status));
   return data as NonNullable<T>;
 }
@@ -62,8 +66,10 @@ export function sentence(error: unknown): string {
 
 /** What a refusal's body says, or one sentence in place of a body that says nothing. */
 export function problemsOf(body: unknown, status: number): readonly Problem[] {
-  if (typeof body === 'object' && body !== null && 'problems' in body && Array.isArray(body.problems)) {
-    return body.problems as Problem[];
-  }
+  if (isRefusal(body)) return body.problems;
   return [{ field: null, message: `The server answered with status ${status}. Its log says why.` }];
+}
+
+function isRefusal(body: unknown): body is { problems: Problem[] } {
+  return typeof body === 'object' && body !== null && 'problems' in body && Array.isArray(body.problems);
 }

@@ -1,7 +1,7 @@
 /** Tags and notes of runs. */
 import { queryOptions, useMutation, useQueryClient } from '@tanstack/react-query';
 import { client, unwrap } from '@/lib/api';
-import { refreshRuns } from '@/lib/use-run-actions';
+import { piecesOf, refreshRuns } from '@/lib/use-run-actions';
 
 /** Characters of a tag. */
 export const LONGEST_TAG = 40;
@@ -21,16 +21,12 @@ export interface TagWish {
   readonly remove?: readonly string[];
 }
 
-/** As many runs as one request may name. */
-const MOST_RUNS = 1000;
-
 /** Give runs tags and take others away. */
 export function useChangeTags() {
   const queries = useQueryClient();
   return useMutation({
     mutationFn: async ({ runIds, add = [], remove = [] }: TagWish): Promise<void> => {
-      for (let start = 0; start < runIds.length; start += MOST_RUNS) {
-        const run_ids = runIds.slice(start, start + MOST_RUNS);
+      for (const run_ids of piecesOf(runIds)) {
         await unwrap<unknown>(client.POST('/api/runs/tags', { body: { run_ids, add: [...add], remove: [...remove] } }));
       }
     },

@@ -60,7 +60,7 @@ export function ComparePage() {
         )}
       </div>
       <CompareFilters search={search} onShow={onShow} />
-      {error && (
+      {error && !comparison && (
         <SentencePanel urgent title="The runs cannot be compared">
           {sentence(error)}
         </SentencePanel>

@@ -85,7 +85,7 @@ export function useLaunchForm(search: LaunchSearch, choices: Choices, begin: Beg
     changed: overrides.changed,
     launch,
     plan: launch !== null && !plan.isError ? plan.data : undefined,
-    isPlanning: !isResting || plan.isPlaceholderData || plan.isFetching,
+    isPlanning: !isResting || plan.isPlaceholderData,
     problems,
     otherProblems: refused.others,
     type: (path: string, text: string | undefined) =>

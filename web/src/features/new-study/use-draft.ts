@@ -82,7 +82,7 @@ export function useDraft(begin: Draft, beginning: string, choices: Choices) {
     name: draft.name.trim() || (spec ? nameOf(spec) : ''),
     preview: spec !== null && !preview.isError ? preview.data : undefined,
     refusal: spec === null ? null : preview.error,
-    isPreviewing: !isResting || preview.isPlaceholderData || preview.isFetching,
+    isPreviewing: !isResting || preview.isPlaceholderData,
   };
 }
 

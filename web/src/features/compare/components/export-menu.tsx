@@ -21,7 +21,7 @@ export function ExportMenu({ search }: { search: CompareSearch }) {
         </Button>
       </Popover.Target>
       <Popover.Dropdown aria-label="Export">
-        <p className={classes.exportHead}>What this page shows now</p>
+        <p className={classes.exportHead}>What this page shows now, without zoom and smoothing</p>
         <SegmentedControl
           size="xs"
           fullWidth

@@ -75,6 +75,7 @@ export function LaunchChoices({ choices, chosen, problems, onChoose }: Props) {
       />
       {chosen.phase === 'manipulation' && method?.needs_locomotion && (
         <LocomotionChoice
+          key={chosen.task}
           value={chosen.locomotion}
           problem={problems.locomotion}
           onChange={(locomotion) => onChoose({ locomotion })}

@@ -41,7 +41,7 @@ export function FanBar({ scene, fan, about }: Props) {
           max={MOST_SEEDS}
           allowDecimal={false}
           value={seed}
-          onChange={(value) => setSeed(typeof value === 'number' ? value : 0)}
+          onChange={(value) => setSeed(Number(value))}
         />
         {fan?.collecting ? (
           <Button className={classes.low} size="xs" variant="default" onClick={() => scene.tell({ do: 'stop-fan' })}>

@@ -39,7 +39,7 @@ export function BulkBar({ runs, selection, total, isAtHand, onSelectAll }: Props
         runs.filter(({ id }) => doneIds.includes(id) && !isAtHand(id)),
         false,
       );
-  });
+  }, isAtHand);
   const waiting = runs.filter((run) => !hasEnded(run.state) && run.deleted_at === null);
   return (
     <div className={classes.bulk} role="toolbar" aria-label="Selected runs">
@@ -101,16 +101,13 @@ function BulkPriority({ runs }: { runs: readonly RunSummary[] }) {
   const set = (priority: number): Promise<void> => {
     const runIds = runs.map((run) => run.id);
     close();
-    return setting.mutateAsync(
-      { runIds, priority },
-      {
-        onSuccess: () => toast({ text: `${formatPlural(runs.length, 'run')} now of priority ${priority}.` }),
-        onError: complain,
-      },
-    );
+    // What became of it is told wherever one is by then.
+    const done = setting.mutateAsync({ runIds, priority });
+    done.then(() => toast({ text: `${formatPlural(runs.length, 'run')} now of priority ${priority}.` }), complain);
+    return done;
   };
   return (
-    <Popover opened={isOpen} onChange={close} position="top" withArrow>
+    <Popover opened={isOpen} onChange={close} position="top" withArrow returnFocus>
       <Popover.Target>
         <Button variant="default" size="compact-sm" onClick={toggle} leftSection={<Icon name="up" size={13} />}>
           Priority

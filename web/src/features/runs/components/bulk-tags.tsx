@@ -11,7 +11,7 @@ import classes from './runs.module.css';
 export function BulkTags({ runs }: { runs: readonly RunSummary[] }) {
   const [isOpen, setOpen] = useState(false);
   return (
-    <Popover opened={isOpen} onChange={setOpen} position="top" withArrow trapFocus>
+    <Popover opened={isOpen} onChange={setOpen} position="top" withArrow trapFocus returnFocus>
       <Popover.Target>
         <Button variant="default" size="compact-sm" onClick={() => setOpen(!isOpen)}>
           Tags
@@ -29,17 +29,11 @@ function TagForm({ runs, onDone }: { runs: readonly RunSummary[]; onDone: () => 
   const complain = useComplaint();
   const changing = useChangeTags();
   const there = [...new Set(runs.flatMap((run) => run.tags))].sort();
-  const apply = (): void =>
-    changing.mutate(
-      { runIds: runs.map((run) => run.id), add, remove },
-      {
-        onSuccess: () => {
-          toast({ text: `The tags of ${formatPlural(runs.length, 'run')} are changed.` });
-          onDone();
-        },
-        onError: complain,
-      },
-    );
+  const apply = (): void => {
+    const changed = changing.mutateAsync({ runIds: runs.map((run) => run.id), add, remove }, { onSuccess: onDone });
+    // It is told wherever one is by then.
+    changed.then(() => toast({ text: `The tags of ${formatPlural(runs.length, 'run')} are changed.` }), complain);
+  };
   return (
     <div className={classes.choices}>
       <TagField label="Add tags" value={add} onChange={setAdd} placeholder="Type, then Enter" />

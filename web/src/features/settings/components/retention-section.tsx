@@ -2,10 +2,10 @@
 import { Button, Checkbox, Modal, NumberInput } from '@mantine/core';
 import { useDebouncedValue, useDisclosure } from '@mantine/hooks';
 import { useQuery } from '@tanstack/react-query';
-import { useState } from 'react';
+import { useMemo, useState } from 'react';
 import type { Removable } from '@/client/schema.gen';
 import { CardSection } from '@/components/card-section';
-import { useToast } from '@/components/toasts';
+import { useComplaint, useToast } from '@/components/toasts';
 import { allows, type Role } from '@/lib/access';
 import { sentence } from '@/lib/api';
 import { formatPlural, formatSize } from '@/lib/format';
@@ -22,19 +22,24 @@ const LONGEST_DAYS = 3650;
 export function RetentionSection({ role }: { role: Role }) {
   const [kinds, setKinds] = useState<Removable[]>(['replay']);
   const [days, setDays] = useState<number>(30);
-  const [rule] = useDebouncedValue({ kinds, older_than_days: days }, REST_MS);
+  // A new object each time would never come to rest.
+  const wanted = useMemo(() => ({ kinds, older_than_days: days }), [kinds, days]);
+  const [rule] = useDebouncedValue(wanted, REST_MS);
   const { data: preview, error, isPlaceholderData } = useQuery(retentionQuery(rule));
   const applying = useApplyRetention();
   const toast = useToast();
+  const complain = useComplaint();
   const [isAsking, asking] = useDisclosure(false);
-  const isFresh = rule.older_than_days === days && rule.kinds === kinds && !isPlaceholderData;
-  const remove = (): void =>
-    applying.mutate(rule, {
-      onSuccess: ({ files, runs, size }) =>
+  const isFresh = rule === wanted && !isPlaceholderData;
+  const remove = (): void => {
+    const removed = applying.mutateAsync(rule, { onSettled: asking.close });
+    // It is told wherever one is by then.
+    removed.then(
+      ({ files, runs, size }) =>
         toast({ text: `Removed ${formatPlural(files, 'file')} of ${formatPlural(runs, 'run')}: ${formatSize(size)}.` }),
-      onError: (failure) => toast({ text: sentence(failure), isProblem: true }),
-      onSettled: asking.close,
-    });
+      complain,
+    );
+  };
   return (
     <CardSection title="Make room" note={<StayingNote />}>
       <fieldset className={classes.kinds}>

@@ -8,7 +8,7 @@ import { problemsOf, Refused, Unreachable } from '@/lib/api';
 const LARGEST_MB = 512;
 
 /** @returns the mutation, and the share that has gone out, 0 to 1 */
-export function useUploadStudy(onDone: (taken: StudyImport) => void) {
+export function useUploadStudy() {
   const queries = useQueryClient();
   const [share, setShare] = useState(0);
   const uploading = useMutation({
@@ -20,10 +20,7 @@ export function useUploadStudy(onDone: (taken: StudyImport) => void) {
       }
       return send(file, setShare);
     },
-    onSuccess: async (taken) => {
-      await Promise.all([['studies'], ['runs']].map((queryKey) => queries.invalidateQueries({ queryKey })));
-      onDone(taken);
-    },
+    onSuccess: () => Promise.all([['studies'], ['runs']].map((queryKey) => queries.invalidateQueries({ queryKey }))),
   });
   return { ...uploading, share };
 }

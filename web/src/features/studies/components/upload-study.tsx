@@ -1,6 +1,7 @@
 /** The button that takes in a study file from another installation, as `sldr import` does. */
 import { Button, FileButton } from '@mantine/core';
-import { useNavigate } from '@tanstack/react-router';
+import { useRouter } from '@tanstack/react-router';
+import type { StudyImport } from '@/client/schema.gen';
 import { ShareBar } from '@/components/share-bar';
 import { useComplaint, useToast } from '@/components/toasts';
 import { formatPlural, formatShare } from '@/lib/format';
@@ -10,15 +11,20 @@ import classes from './studies.module.css';
 export function UploadStudy() {
   const toast = useToast();
   const complain = useComplaint();
-  const navigate = useNavigate();
-  const uploading = useUploadStudy(({ study_id, runs, already_there }) => {
-    toast({
-      text: already_there ? 'This study was here already.' : `A study with ${formatPlural(runs, 'run')} is here.`,
-    });
-    void navigate({ to: '/studies/$studyId', params: { studyId: study_id } });
-  });
+  const router = useRouter();
+  const uploading = useUploadStudy();
   const take = (file: File | null): void => {
-    if (file) uploading.mutate(file, { onError: complain });
+    if (!file) return;
+    // It can take minutes. What became of it is told wherever one is by then; who has left is not called away.
+    const { pathname } = router.state.location;
+    const tell = ({ study_id, runs, already_there }: StudyImport): void => {
+      toast({
+        text: already_there ? 'This study was here already.' : `A study with ${formatPlural(runs, 'run')} is here.`,
+      });
+      if (router.state.location.pathname !== pathname) return;
+      void router.navigate({ to: '/studies/$studyId', params: { studyId: study_id } });
+    };
+    uploading.mutateAsync(file).then(tell, complain);
   };
   if (uploading.isPending) return <Sending share={uploading.share} />;
   return (

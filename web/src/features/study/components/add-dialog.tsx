@@ -53,7 +53,7 @@ function Form({ study, onClose }: Omit<Props, 'isOpen'>) {
     variants: [...(spec.variants ?? []), ...variants],
   };
   const preview = useQuery(previewQuery(isEmpty || isUnread || isPending ? null : longer, study.id));
-  const isPreviewed = preview.data !== undefined && !preview.isPlaceholderData && !preview.isFetching;
+  const isPreviewed = preview.data !== undefined && !preview.isPlaceholderData;
   const others = (names: readonly { name: string }[] = [], known: readonly string[] = []): string[] =>
     names.map(({ name }) => name).filter((name) => !known.includes(name));
   return (

@@ -109,14 +109,11 @@ function Drain({ worker: { id, draining, host } }: { worker: Worker }) {
   const toast = useToast();
   const complain = useComplaint();
   const setting = useSetDraining(id);
-  const set = (): void =>
-    setting.mutate(!draining, {
-      onSuccess: () =>
-        toast({
-          text: draining ? `${host} takes runs again.` : `${host} takes no further run and keeps those that it has.`,
-        }),
-      onError: complain,
-    });
+  const set = (): void => {
+    const text = draining ? `${host} takes runs again.` : `${host} takes no further run and keeps those that it has.`;
+    // It is told wherever one is by then.
+    setting.mutateAsync(!draining).then(() => toast({ text }), complain);
+  };
   return (
     <Button
       variant={draining ? 'light' : 'default'}
