@@ -33,7 +33,7 @@ from sldr_core.errors import SldrError
 from worker.claimed_files import bring_claimed_run, send_log
 from worker.locomotion_files import find_locomotion_models
 from worker.mortality import end_with_parent
-from worker.patience import insist
+from worker.patience import FILES_PATIENCE_S, insist
 from worker.recorder import StoreRecorder
 from worker.sign_of_life import showing_life
 from worker.words import STOP_WORDS, StopWord
@@ -150,8 +150,8 @@ def _attempt(
             insist(lambda: note_host(db, claim, socket.gethostname()))
             with showing_life(db, claim):
                 bring_claimed_run(db, settings, claim)
+                models = insist(lambda: find_locomotion_models(db, settings, claim), patience_s=FILES_PATIENCE_S)
             log.info("Attempt %d of run %s begins in process %d.", claim.attempt, claim.run_id, os.getpid())
-            models = insist(lambda: find_locomotion_models(db, settings, claim))
             write = None if record_run is None else partial(record_run, db, settings, claim.run_id)
             with StoreRecorder(db, settings, claim, requests.newest, write) as recorder:
                 result = train(claim.config, recorder, models, claim.gate_waived)

@@ -84,6 +84,9 @@ class Supervisor:
         self._timing = timing or Timing()
         self._machine = machine or describe_machine([])
         self._presence = Presence(self._timing.lease_s)
+        if db.engine_name != "sqlite":
+            # One that others use over the network may have been away until now, and they had no time to be heard.
+            self._presence.note_outage()
         self._attempts: dict[str, Attempt] = {}
         self._stops_asked = 0
         self._reap_at = 0.0

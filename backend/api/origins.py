@@ -47,7 +47,15 @@ def is_allowed(scope: Scope) -> bool:
         return site is None or site in OWN_SITES or headers.get("sec-fetch-mode") == "navigate"
     origin = headers.get("origin")
     if origin is not None:
-        return urlsplit(origin).netloc.lower() == headers.get("host", "").lower()
+        return _place(origin) == headers.get("host", "").lower()
     if scope["type"] == "websocket":
         return False
     return site == "same-origin" or (site is None and ("authorization" in headers or "cookie" not in headers))
+
+
+def _place(origin: str) -> str | None:
+    """Return host and port of an Origin; None if it is none."""
+    try:
+        return urlsplit(origin).netloc.lower()
+    except ValueError:
+        return None

@@ -16,7 +16,7 @@ from sqlalchemy import Connection, RowMapping, Update, and_, delete, insert, or_
 
 from backend.store.database import Database, current_time
 from backend.store.errors import NotFound
-from backend.store.tables import ID_LENGTH, media_jobs, run_files, runs
+from backend.store.tables import ID_LENGTH, SHARED, file_removals, media_jobs, run_files, runs
 
 MediaKind = Literal["thumbnail", "video"]
 """What is drawn."""
@@ -136,12 +136,13 @@ def finish_media(db: Database, job: MediaJob, made: MadeFile) -> str | None:
     """Record a finished file among the run's files; one of the same name is replaced.
 
     Returns:
-        The path whose bytes no row holds any more, if there is one; the new one, if another host has the job by now.
+        The path whose bytes no row holds any more, if there is one: the new one, if another host has the job by now
+        and has not made the same bytes, nor this one in a try whose answer was lost.
     """
     with db.write() as conn:
         at = current_time(conn)
         if conn.execute(_end(job.id, job.fence, "done", None, at)).rowcount == 0:
-            return made.path
+            return None if _is_registered(conn, job.run_id, made.path) else made.path
         this = (run_files.c.run_id == job.run_id, run_files.c.name == job.file_name)
         before = conn.execute(select(run_files.c.path).where(*this)).scalar_one_or_none()
         conn.execute(delete(run_files).where(*this))
@@ -149,10 +150,18 @@ def finish_media(db: Database, job: MediaJob, made: MadeFile) -> str | None:
         conn.execute(
             insert(run_files).values(**values, path=made.path, size=made.size, sha256=made.sha256, created_at=at)
         )
+        # It may have been drawn anew where an earlier one was to be removed.
+        marks = (made.path, f"{SHARED}{made.path}")
+        conn.execute(delete(file_removals).where(file_removals.c.run_id == job.run_id, file_removals.c.path.in_(marks)))
         # What the new file has replaced was of an older source: whoever asks for that again gets it drawn again.
         replaced = (media_jobs.c.run_id == job.run_id, media_jobs.c.file_name == job.file_name)
         conn.execute(delete(media_jobs).where(*replaced, media_jobs.c.id != job.id, media_jobs.c.state == "done"))
     return None if before == made.path else before
+
+
+def _is_registered(conn: Connection, run_id: str, path: str) -> bool:
+    held = select(run_files.c.name).where(run_files.c.run_id == run_id, run_files.c.path == path)
+    return conn.execute(held).first() is not None
 
 
 def get_media(db: Database, job_id: str) -> MediaJob:

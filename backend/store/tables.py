@@ -347,3 +347,6 @@ file_removals = Table(
     Column("marked_at", UtcDateTime, nullable=False),
 )
 """Files that no row of `run_files` holds any more and whose bytes are to go."""
+
+SHARED = "shared:"
+"""Before a path in `file_removals` that lies at the place that machines share."""

@@ -71,6 +71,15 @@ def test_a_study_goes_in_and_out(client: httpx.Client, exported: Path, settings:
     wait_until(lambda: not leftovers(settings.home), otherwise="uploads or downloads were left there")
 
 
+@pytest.mark.parametrize(("part", "status"), [("bytes=0-9", 206), ("bytes=999999999-", 416), ("lines=1", 400)])
+def test_nothing_is_left_of_what_was_packed_for_an_answer(
+    client: httpx.Client, exported: Path, settings: Settings, part: str, status: int
+) -> None:
+    study_id = upload(client, exported.read_bytes()).json()["study_id"]
+    assert client.get(f"/api/study-files/{study_id}", headers={"range": part}).status_code == status
+    wait_until(lambda: not leftovers(settings.home), otherwise="the download was left there")
+
+
 @pytest.mark.parametrize("content", [b"", b"PK\x03\x04", b"{}"], ids=["empty", "cut", "text"])
 def test_what_is_no_study_file_is_told(client: httpx.Client, content: bytes) -> None:
     answer = upload(client, content)

@@ -127,7 +127,7 @@ def test_nobody_ends_the_session_of_another(api: Guarded):
     assert viewer.get("/api/runs").status_code == 200
 
 
-@pytest.mark.parametrize("origin", [EVIL, "null", "http://127.0.0.1:1"])
+@pytest.mark.parametrize("origin", [EVIL, "null", "http://127.0.0.1:1", "http://["])
 def test_a_websocket_of_another_site_is_refused(api: Guarded, origin: str):
     browser = api.sign_in("viewer")
     cookie = "; ".join(f"{name}={value}" for name, value in browser.cookies.items())
@@ -146,6 +146,7 @@ def test_a_websocket_of_another_site_is_refused(api: Guarded, origin: str):
     [
         {"origin": EVIL},
         {"origin": "null"},
+        {"origin": "http://["},
         {"origin": "http://127.0.0.1:1"},
         {"origin": "", "sec-fetch-site": "cross-site"},
         {"origin": "", "sec-fetch-site": "same-site"},

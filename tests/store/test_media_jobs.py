@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
+from sqlalchemy import insert, select
 from store_cases import claimed_run
 
 from backend.store.claims import Claim
-from backend.store.database import Database
+from backend.store.database import Database, current_time
 from backend.store.errors import NotFound
 from backend.store.files import find_file, register_file
 from backend.store.media_jobs import (
@@ -28,6 +29,7 @@ from backend.store.media_jobs import (
 )
 from backend.store.outcomes import Succeeded
 from backend.store.queue import finish
+from backend.store.tables import SHARED, file_removals
 from backend.store.thumbnails import THUMBNAIL_FILE, THUMBNAIL_SOURCE, plan_thumbnail
 
 MADE = MadeFile("runs/x/video.mp4", 12, "a" * 64)
@@ -94,6 +96,25 @@ def test_a_host_that_gives_no_sign_of_life_loses_its_job(db: Database, order: Me
     assert finish_media(db, lost, MADE) == MADE.path
     assert finish_media(db, taken, MADE) is None
     assert get_media(db, order.job_id).state == "done"
+
+
+def test_a_file_that_is_registered_stays_when_the_same_is_told_again(db: Database, order: MediaOrder) -> None:
+    order_media(db, order)
+    job = claimed(db)
+    assert finish_media(db, job, MADE) is None
+    assert finish_media(db, job, MADE) is None, "the first answer was lost"
+    assert find_file(db, order.run_id, "video.mp4").path == MADE.path
+
+
+def test_a_file_that_is_drawn_anew_is_not_removed_any_more(db: Database, order: MediaOrder) -> None:
+    with db.write() as conn:
+        mark = {"run_id": order.run_id, "size": 1, "fence": 1, "marked_at": current_time(conn)}
+        for path in (MADE.path, f"{SHARED}{MADE.path}", "runs/x/other.mp4"):
+            conn.execute(insert(file_removals).values({**mark, "path": path}))
+    order_media(db, order)
+    finish_media(db, claimed(db), MADE)
+    with db.read() as conn:
+        assert list(conn.execute(select(file_removals.c.path)).scalars()) == ["runs/x/other.mp4"]
 
 
 def test_a_job_that_ends_every_host_is_given_up(db: Database, order: MediaOrder) -> None:

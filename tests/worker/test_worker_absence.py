@@ -7,14 +7,17 @@ import signal
 import sqlite3
 import time
 from contextlib import closing
+from dataclasses import replace
 
 import pytest
+from fake_trainings import TIMING
 from other_processes import is_running, wait_until
-from worker_cases import queued_run, wait_for_training, worker_process
+from worker_cases import queued_run, wait_for_training, worker, worker_process
 
 from backend.store.attempts import list_attempts
 from backend.store.database import Database
 from backend.store.metrics import read_metrics
+from backend.store.queue import claim
 from backend.store.runs import get_run, list_events
 from backend.store.settings import Settings
 from worker import presence
@@ -90,6 +93,20 @@ def test_a_worker_that_wakes_up_kills_a_child_that_does_not_notice(db: Database,
                 wait_until(lambda: not is_running(child))
         finally:
             os.kill(stopped.pid, signal.SIGCONT)
+
+
+def test_a_worker_that_begins_does_not_judge_others_before_they_had_time_to_be_heard(
+    db: Database, settings: Settings
+) -> None:
+    run_id = queued_run(db)
+    # As when the store was away for longer than a lease, and this worker is the first that reaches it again.
+    lost = claim(db, "another", lease_s=0.01)
+    assert lost is not None
+    begun = time.monotonic()
+    with worker(db, settings, "counts", replace(TIMING, lease_s=SHORT_LEASE_S)):
+        wait_until(lambda: "lost" in [event.event for event in list_events(db, run_id)])
+    # Nobody but this machine uses a file of SQLite, so there was no such time.
+    assert db.engine_name == "sqlite" or time.monotonic() - begun >= SHORT_LEASE_S
 
 
 class Clock:

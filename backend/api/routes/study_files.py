@@ -6,10 +6,11 @@ import tempfile
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from fastapi import APIRouter, BackgroundTasks, Request
+from fastapi import APIRouter, Request
 from fastapi.responses import FileResponse
 from pydantic import Field
 from starlette.concurrency import run_in_threadpool
+from starlette.types import Receive, Scope, Send
 
 from backend.api.access.declarations import needs
 from backend.api.dependencies import ServiceSettings, Store
@@ -91,7 +92,7 @@ async def upload_study(request: Request, store: Store, settings: ServiceSettings
 
 @router.get("/{study_id}", responses={**DOWNLOAD, **problem_responses(404, 409, 422)}, response_class=FileResponse)
 @needs("viewer")
-def download_study(study_id: str, store: Store, settings: ServiceSettings, after: BackgroundTasks) -> FileResponse:
+def download_study(study_id: str, store: Store, settings: ServiceSettings) -> FileResponse:
     """Pack a study into one file: its curves, configs, final policies, models and a few episodes."""
     with tempfile.NamedTemporaryFile(dir=settings.home, prefix=".study-", suffix=".zip", delete=False) as file:
         path = Path(file.name)
@@ -100,8 +101,17 @@ def download_study(study_id: str, store: Store, settings: ServiceSettings, after
     except BaseException:
         path.unlink()
         raise
-    after.add_task(path.unlink)
-    return FileResponse(path, media_type=ARCHIVE, filename=f"study-{study_id}.zip", background=after)
+    return _SentOnce(path, media_type=ARCHIVE, filename=f"study-{study_id}.zip")
+
+
+class _SentOnce(FileResponse):
+    """Send a file that was made for one answer, and remove it even if the part that was asked for cannot be sent."""
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        try:
+            await super().__call__(scope, receive, send)
+        finally:
+            Path(self.path).unlink()
 
 
 async def _receive(request: Request, file: BinaryIO) -> None:

@@ -20,7 +20,7 @@ from backend.store.retention.rule import KEEP_TAGS, Removable, Rule, kind_of, un
 from backend.store.settings import Settings
 from backend.store.states import ENDED
 from backend.store.storage import FileStorage
-from backend.store.tables import AnyRow, run_files, run_needs, run_tags, runs
+from backend.store.tables import SHARED, AnyRow, run_files, run_needs, run_tags, runs
 from sldr_core.errors import SldrError
 
 log = logging.getLogger(__name__)
@@ -84,9 +84,6 @@ class RetentionPlan:
 
 _TOLD = tuple(runs.c[name] for name in ("id", "task", "phase", "method", "seed", "state", "ended_at", "fence"))
 """What is read of a run: not its config, which takes longer than all the rest."""
-
-SHARED = "shared:"
-"""Before the path of a file that lies at the shared place."""
 
 
 def plan_retention(db: Database, settings: Settings, rule: Rule) -> RetentionPlan:

@@ -15,12 +15,12 @@ from sqlalchemy import Connection, delete, insert, select
 
 from backend.store.database import Database, current_time
 from backend.store.errors import FilesUnavailable
-from backend.store.retention.plan import SHARED, RetentionPlan, RunShare, find_protected, is_old_enough
+from backend.store.retention.plan import RetentionPlan, RunShare, find_protected, is_old_enough
 from backend.store.retention.rule import Rule
 from backend.store.settings import Settings
 from backend.store.states import ENDED
 from backend.store.storage import FileStorage
-from backend.store.tables import episodes, file_removals, media_jobs, run_files, runs
+from backend.store.tables import SHARED, episodes, file_removals, media_jobs, run_files, runs
 
 log = logging.getLogger(__name__)
 
@@ -92,8 +92,9 @@ def _remove_of_run(db: Database, settings: Settings, storage: FileStorage, run_i
                 gone.append(mark.size)
         _unmark(conn, run_id, [mark.path for mark in here])
         far = _marks(conn, run_id, shared=True)
-    # A path at the shared place is never written twice, so nobody can have put another file there.
     for mark in far:
+        if not _is_marked(db, run_id, mark.path):
+            continue  # It has been drawn anew since, at the same path.
         try:
             storage.forget(mark.path.removeprefix(SHARED))
         except FilesUnavailable as err:
@@ -109,6 +110,12 @@ def _marks(conn: Connection, run_id: str, shared: bool) -> list[_Mark]:
     query = select(file_removals).where(file_removals.c.run_id == run_id)
     marks = [_Mark(row.path, row.size, row.fence) for row in conn.execute(query)]
     return [mark for mark in marks if mark.path.startswith(SHARED) == shared]
+
+
+def _is_marked(db: Database, run_id: str, path: str) -> bool:
+    with db.read() as conn:
+        marked = select(file_removals.c.size).where(file_removals.c.run_id == run_id, file_removals.c.path == path)
+        return conn.execute(marked).first() is not None
 
 
 def _unmark(conn: Connection, run_id: str, paths: Sequence[str]) -> None:
