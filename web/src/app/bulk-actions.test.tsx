@@ -1,6 +1,7 @@
 import { screen, waitFor, within } from '@testing-library/react';
 import type { UserEvent } from '@testing-library/user-event';
 import { beforeEach, expect, test } from 'vitest';
+import { piecesOf } from '@/lib/use-run-actions';
 import { DONE, type FakeServer } from '@/testing/fake-server';
 import { openPage, startServer } from '@/testing/open-page';
 import { RUN } from '@/testing/samples';
@@ -126,4 +127,24 @@ test('runs of different priorities can all be given that of the first', async ()
   await waitFor(() =>
     expect(server.bodiesOf('PUT', '/api/runs/priority')).toEqual([{ run_ids: ['run-1', 'run-2'], priority: 5 }]),
   );
+});
+
+test('cancelling runs out of view asks, as they may train by now', async () => {
+  const runs = RUNS.map((run) => ({ ...run, state: 'queued' as const }));
+  const group = { keys: { method: 'her-sldr' }, runs: 3, seeds: [1, 2, 3], states: { queued: 3 }, spread: null };
+  server
+    .on('GET /api/run-groups', () => ({ body: { groups: [group], total: 3 } }))
+    .on('GET /api/runs', () => ({ body: { runs, values: [[], [], []], next_cursor: null, total: 3 } }));
+  const { user } = openPage('/?group=method');
+  await user.click(await screen.findByRole('checkbox', { name: /her-sldr/ }));
+  await press(user, /^Cancel/);
+  await user.click(await screen.findByRole('button', { name: 'Yes, cancel them' }));
+  await waitFor(() => expect(sent()).toEqual([{ action: 'cancel', run_ids: ['run-1', 'run-2', 'run-3'] }]));
+});
+
+test('as many runs are named at a time as a request may name', () => {
+  const ids = Array.from({ length: 2500 }, (_, index) => `run-${index}`);
+  expect(piecesOf(ids).map((piece) => piece.length)).toEqual([1000, 1000, 500]);
+  expect(piecesOf(ids).flat()).toEqual(ids);
+  expect(piecesOf([])).toEqual([]);
 });

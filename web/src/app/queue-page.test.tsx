@@ -91,6 +91,17 @@ test('a typed priority is sent on Enter', async () => {
   );
 });
 
+test('a priority that is typed behind the one that is there is sent as well', async () => {
+  const { user } = openPage('/queue');
+  const field = await screen.findByRole<HTMLInputElement>('textbox', { name: /^Priority of .* seed 2$/ });
+  await user.type(field, '5');
+  expect(field.value).toBe('05');
+  await user.tab();
+  await waitFor(() =>
+    expect(server.bodiesOf('PUT', '/api/runs/priority')).toEqual([{ run_ids: ['run-2'], priority: 5 }]),
+  );
+});
+
 test('Alt with an arrow key in the field of a priority moves the run, and the priority stays', async () => {
   const { user } = openPage('/queue');
   await user.click(await screen.findByRole('textbox', { name: /^Priority of .* seed 2$/ }));

@@ -16,6 +16,8 @@ test('whoever is not known is led to sign in, with a sentence, and back afterwar
   askFor('accounts');
   server.on('GET /api/workers', () => problem(401, null, 'Your session has ended; sign in again.'));
   server.on('POST /api/auth/sign-in', () => {
+    const caller = { name: 'ada', role: 'operator', has_account: true };
+    server.on('GET /api/auth/me', () => ({ body: { mode: 'accounts', caller, message: null } }));
     server.on('GET /api/workers', () => ({ body: { workers: [] } }));
     return DONE;
   });
@@ -29,6 +31,13 @@ test('whoever is not known is led to sign in, with a sentence, and back afterwar
   await user.click(screen.getByRole('button', { name: 'Sign in' }));
   await waitFor(() => expect(router.state.location.pathname).toBe('/workers'));
   expect(server.bodiesOf('POST', '/api/auth/sign-in')).toEqual([{ name: 'ada', password: 'seven purple otters' }]);
+});
+
+test.each(['/account', '/accounts', '/settings'])('%s, which shows strangers nothing, leads them in', async (address) => {
+  askFor('accounts');
+  const { router } = openPage(address);
+  expect(await screen.findByLabelText(/^Password/)).toBeTruthy();
+  expect(router.state.location.href).toBe(`/sign-in?from=${encodeURIComponent(address)}`);
 });
 
 test('whoever was signed in until now can sign in again', async () => {

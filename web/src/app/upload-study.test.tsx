@@ -80,6 +80,23 @@ test('a file that is refused gets the server’s sentence, and the button is bac
   expect(screen.getByRole('button', { name: 'Upload a study file' })).toBeTruthy();
 });
 
+test('who has left meanwhile is told what became of a file, and stays', async () => {
+  const { router } = openPage('/studies');
+  const message = 'The uploaded file is no study file: it is not a zip archive.';
+  for (const [status, answer, told] of [
+    [422, { problems: [{ field: null, message }] }, message],
+    [200, { study_id: 'study-1', runs: 6, already_there: false }, 'A study with 6 runs is here.'],
+  ] as const) {
+    await act(() => router.navigate({ to: '/studies' }));
+    await choose(new File(['PK'], 'study.zip'));
+    await screen.findByText(/^Sending/);
+    await act(() => router.navigate({ to: '/compare/configs' }));
+    HeldRequest.last.answer(status, answer);
+    expect(await screen.findByText(told)).toBeTruthy();
+    expect(router.state.location.pathname).toBe('/compare/configs');
+  }
+});
+
 test('a connection that breaks is told as such', async () => {
   openPage('/studies');
   await choose(new File(['PK'], 'study.zip'));

@@ -17,6 +17,8 @@ interface Props {
 
 export function PriorityField({ value, label, onSet, isEager = false }: Props) {
   const field = useRef<HTMLInputElement>(null);
+  /** What was given and is not answered yet. */
+  const given = useRef<number>(null);
   const [typed, setTyped] = useState<number | string | null>(null);
   // biome-ignore lint/correctness/useExhaustiveDependencies: what was typed gives way to what is known now
   useEffect(() => setTyped(null), [value]);
@@ -28,8 +30,16 @@ export function PriorityField({ value, label, onSet, isEager = false }: Props) {
   const take = (): void => {
     // What begins with a zero is handed on as it was typed.
     const wanted = typed === null || typed === '' ? null : Number(typed);
-    if (wanted !== null && Number.isInteger(wanted) && wanted !== value) onSet(wanted).catch(() => setTyped(null));
-    else setTyped(null);
+    if (wanted === null || !Number.isInteger(wanted) || wanted === value) setTyped(null);
+    // Enter may be what takes the focus away as well.
+    else if (wanted !== given.current) {
+      given.current = wanted;
+      onSet(wanted)
+        .catch(() => setTyped(null))
+        .finally(() => {
+          given.current = null;
+        });
+    }
   };
   return (
     <NumberInput

@@ -1,6 +1,6 @@
 import { screen } from '@testing-library/react';
 import { beforeEach, expect, test } from 'vitest';
-import { Refused, Unreachable } from '@/lib/api';
+import { Refused, Unreachable, unwrap } from '@/lib/api';
 import type { FakeServer } from '@/testing/fake-server';
 import { openPage, startServer } from '@/testing/open-page';
 import { PREVIEW } from '@/testing/samples';
@@ -33,4 +33,13 @@ test('what the server has refused is not asked for again', () => {
   expect(reconnecting({ state: { error: new Unreachable(null) } })).toBe(RECONNECT_MS);
   expect(reconnecting({ state: { error: new Refused(403, []) } })).toBe(false);
   expect(reconnecting({ state: { error: null } })).toBe(false);
+});
+
+test.each([
+  [502, '<html>Bad Gateway</html>', Unreachable],
+  [503, { problems: [{ field: null, message: 'The store cannot be used just now.' }] }, Refused],
+  [500, 'Internal Server Error', Refused],
+])('an answer with status %i comes from a proxy or from the server itself', async (status, error, kind) => {
+  const answer = { error, response: new Response(null, { status }) };
+  await expect(unwrap(Promise.resolve(answer))).rejects.toBeInstanceOf(kind);
 });
