@@ -61,7 +61,7 @@ class TaskStarts:
 class StackStarts:
     """Draw stacks, and give each object a scene of its own: demonstration `P k + p` is object `p` of stack `k`.
 
-    So is a stack rewarded: the locomotion model of one object is applied to each (paper §5).
+    So is a stack rewarded: the locomotion model of one object is applied to each (paper §6.4).
     """
 
     def __init__(self, task: TaskSpec, envs: Envs, stacks: Envs) -> None:

@@ -26,10 +26,11 @@ def settings_page() -> str:
     parts = [
         "# Settings",
         f"Written by `{COMMAND}`; change the code instead.",
-        "Every setting of a training is called `group.name`. It stands under **Advanced settings** on the pages New "
-        'run and New study; `--set loop.batch_size=256` sets it on the command line, `settings={"loop": {"batch_size": '
-        "256}}` in a script, and several values make an axis of a study. A launch takes the defaults, lays the task's "
-        "numbers over them, then the method's, then the preset's, and last what you set.",
+        "Every setting of a training is called `group.name`. It stands under **Advanced settings** on the page New run "
+        "and under **Settings** on New study; `--set loop.batch_size=256` sets it on the command line, "
+        '`settings={"loop": {"batch_size": 256}}` in a script, and several values make an axis of a study. A launch '
+        "takes the defaults, lays the task's numbers over them, then the method's, then the preset's, and last what "
+        "you set.",
         "## Of every training",
         table(SETTING_HEADS, setting_rows(GROUPS)),
         "What only some methods have (`sldr`, `rnd`, `curriculum`) stands in "

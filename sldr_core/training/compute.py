@@ -40,6 +40,8 @@ def resolve_compute(config: ComputeConfig, beside: bool = False) -> Compute:
     device = torch.device("cuda" if has_gpu and config.device != "cpu" else "cpu")
     learning = _learning_threads(threads, device) if beside else threads
     torch.set_num_threads(learning)
+    # A thread takes the number that is set when it first needs one, and whoever collects sets another: needed here.
+    torch.get_num_threads()
     return Compute(
         device=device,
         autocast=config.precision == "bfloat16",

@@ -132,7 +132,7 @@ def collect_episodes(envs: Envs, act: Act, check: Check, watch: Watch | None = N
 
 @contextmanager
 def _acting_threads() -> Iterator[None]:
-    """Give torch the threads of acting, in this thread alone: a learner in another one keeps its own."""
+    """Give torch the threads of acting: a learner in another thread keeps those that `resolve_compute` gave it."""
     before = torch.get_num_threads()
     torch.set_num_threads(ACTING_THREADS)
     try:

@@ -1,4 +1,4 @@
-"""The test protocol: deterministic episodes, success read at the last step (paper §6.1)."""
+"""The test protocol: deterministic episodes, success read at the last step (paper §6.2)."""
 
 from __future__ import annotations
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,7 @@ from small_training import CrashingRecorder, metrics_of, run, save_untrained_mod
 
 from sldr_core.agent import DdpgAgent, ddpg, inverse
 from sldr_core.envs import Envs, Observation
-from sldr_core.errors import TrainingDiverged
+from sldr_core.errors import DiskTooFull, TrainingDiverged
 from sldr_core.nets.files import load_tensors
 from sldr_core.nets.transitions import Transitions
 from sldr_core.streams import TaskStream
@@ -52,6 +53,21 @@ def test_a_reward(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert evidence["obs"].shape == evidence["next_obs"].shape == (16, 12)
     assert (evidence["goal"].shape, evidence["action"].shape) == ((16, 3), (16, 7))
     assert [line["cycle"] for line in metrics_of(tmp_path)] == [1]
+
+
+class FullDisk(DirectoryRecorder):
+    """Have no room for evidence."""
+
+    def save_file(self, name: str, kind: str, write: Callable[[Path], None]) -> Path:
+        if kind == "dump":
+            raise DiskTooFull(f"{name} does not fit; free some space.")
+        return super().save_file(name, kind, write)
+
+
+def test_what_diverged_is_told_on_a_full_disk_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(TaskStream, "reward", lambda _, batch: batch.reward * NAN)
+    with pytest.raises(TrainingDiverged, match=r"the reward of stream 'task' became nan .* as the disk is full"):
+        train(tiny_config(), FullDisk(tmp_path))
 
 
 def test_a_loss(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
