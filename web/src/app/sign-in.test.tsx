@@ -33,12 +33,15 @@ test('whoever is not known is led to sign in, with a sentence, and back afterwar
   expect(server.bodiesOf('POST', '/api/auth/sign-in')).toEqual([{ name: 'ada', password: 'seven purple otters' }]);
 });
 
-test.each(['/account', '/accounts', '/settings'])('%s, which shows strangers nothing, leads them in', async (address) => {
-  askFor('accounts');
-  const { router } = openPage(address);
-  expect(await screen.findByLabelText(/^Password/)).toBeTruthy();
-  expect(router.state.location.href).toBe(`/sign-in?from=${encodeURIComponent(address)}`);
-});
+test.each(['/account', '/accounts', '/settings'])(
+  '%s, which shows strangers nothing, leads them in',
+  async (address) => {
+    askFor('accounts');
+    const { router } = openPage(address);
+    expect(await screen.findByLabelText(/^Password/)).toBeTruthy();
+    expect(router.state.location.href).toBe(`/sign-in?from=${encodeURIComponent(address)}`);
+  },
+);
 
 test('whoever was signed in until now can sign in again', async () => {
   const caller = { name: 'ada', role: 'operator', has_account: true };

@@ -107,7 +107,7 @@ function BulkPriority({ runs }: { runs: readonly RunSummary[] }) {
     return done;
   };
   return (
-    <Popover opened={isOpen} onChange={close} position="top" withArrow returnFocus>
+    <Popover opened={isOpen} onChange={close} position="top" withArrow>
       <Popover.Target>
         <Button variant="default" size="compact-sm" onClick={toggle} leftSection={<Icon name="up" size={13} />}>
           Priority
